@@ -9,6 +9,7 @@ mod formats;
 mod map;
 mod maps;
 mod merge;
+mod progress;
 mod recovery;
 mod render;
 mod replay;
@@ -18,10 +19,13 @@ mod track;
 mod train;
 
 use std::ffi::OsString;
+use std::net::{IpAddr, ToSocketAddrs};
+use std::ops::RangeInclusive;
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use anyhow::Context;
+use clap::builder::RangedI64ValueParser;
 use clap::{Parser, Subcommand};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -31,7 +35,7 @@ use crate::http::EmbeddedFile;
 
 /// A browser laboratory: a robot arm carries a magnetic bead through a maze.
 #[derive(Parser)]
-#[command(name = "ferry", version, about, args_conflicts_with_subcommands = true)]
+#[command(name = "ferry", version, args_conflicts_with_subcommands = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
@@ -81,6 +85,16 @@ enum Command {
 /// Parses the arguments and runs the command, which may serve the page with these files. Help, version and usage errors are
 /// printed by clap and returned as codes.
 pub fn run(arguments: impl Iterator<Item = OsString>, files: &'static [EmbeddedFile]) -> anyhow::Result<ExitCode> {
+    set_signals(false);
+    // An empty variable counts as one that is not set.
+    let is_empty =
+        |name: &OsString, value: &OsString| value.is_empty() && name.as_encoded_bytes().starts_with(b"FERRY_");
+    let empty: Vec<OsString> =
+        std::env::vars_os().filter(|(name, value)| is_empty(name, value)).map(|(name, _)| name).collect();
+    for name in empty {
+        // SAFETY: no other thread runs yet that could read the environment.
+        unsafe { std::env::remove_var(name) };
+    }
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(usage) => {
@@ -92,7 +106,11 @@ pub fn run(arguments: impl Iterator<Item = OsString>, files: &'static [EmbeddedF
     // SAFETY: no other thread runs yet that could read the environment.
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     begin_logging()?;
-    match arguments.command.unwrap_or(Command::Serve(arguments.serve)) {
+    let command = arguments.command.unwrap_or(Command::Serve(arguments.serve));
+    if matches!(command, Command::Serve(_) | Command::Drive(_)) {
+        set_signals(true);
+    }
+    match command {
         Command::Serve(arguments) => serve::run(&arguments, files, None),
         Command::Attempts(command) => attempts::run(&command),
         Command::Check(arguments) => check::run(&arguments),
@@ -113,6 +131,29 @@ pub fn run(arguments: impl Iterator<Item = OsString>, files: &'static [EmbeddedF
         Command::Track(arguments) => track::run(&arguments),
         Command::Train(arguments) => train::run(&arguments),
     }
+}
+
+/// Writing a file beyond the limit of its size fails, as on a full disk, instead of ending the process. A command whose output
+/// is no longer read ends silently, as is usual; a server goes on.
+fn set_signals(is_server: bool) {
+    #[cfg(unix)]
+    // SAFETY: neither action runs code of this process.
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+        libc::signal(libc::SIGPIPE, if is_server { libc::SIG_IGN } else { libc::SIG_DFL });
+    }
+}
+
+/// A whole number of a range that the library has.
+fn within(allowed: RangeInclusive<u32>) -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(i64::from(*allowed.start())..=i64::from(*allowed.end()))
+}
+
+/// An address, or a host's name. If the name has several addresses, one of version 4 is taken.
+fn host(text: &str) -> Result<IpAddr, String> {
+    let found = (text, 0).to_socket_addrs().map_err(|error| error.to_string())?;
+    let first = found.map(|address| address.ip()).min_by_key(IpAddr::is_ipv6);
+    first.ok_or_else(|| "this name has no address".to_owned())
 }
 
 /// Logs to standard error, filtered by `FERRY_LOG`, as text or, with `FERRY_LOG_FORMAT=json`, as one JSON object per

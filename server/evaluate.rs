@@ -24,8 +24,8 @@ pub use comparison::{Comparison, PairedMean};
 pub use evaluation::{CellProgress, CellResult, Evaluation, Progress};
 pub use evaluations::{Evaluations, SubmitError};
 pub use experiment::{
-    Episode, EvaluateError, Experiment, Recorders, Venue, Watch, episode, episode_in, run, run_one, run_trials,
-    unrecorded,
+    EPISODES, Episode, EvaluateError, Experiment, Recorders, Venue, Watch, episode, episode_in, run, run_one,
+    run_trials, unrecorded,
 };
 pub use figure::{FigureError, Trace};
 pub use manner::Manner;

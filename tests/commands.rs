@@ -1,10 +1,13 @@
 //! The command line: output and errors.
 
-use std::process::Output;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 use ferry::trial::{InputLog, replay};
 
-use crate::support::ferry;
+use crate::support::{Ferry, ferry};
 
 fn failure(output: Output) -> String {
     assert!(!output.status.success());
@@ -221,6 +224,175 @@ fn errors_are_one_sentence_with_a_remedy() {
 
     let message = failure(ferry(&["evaluate", "--map", "nowhere"]).output().unwrap());
     assert!(message.contains("nowhere") && message.contains("posts"), "{message}");
-    let message = failure(ferry(&["evaluate", "--episodes", "0"]).output().unwrap());
-    assert!(message.contains("episodes is 0"), "{message}");
+}
+
+#[test]
+fn counts_out_of_range_are_refused_before_graphics_start() {
+    for (arguments, parts) in [
+        (&["evaluate", "--episodes", "0"][..], &["--episodes", "0 is not in 1..=100000"][..]),
+        (&["evaluate", "--episodes", "100001"], &["--episodes", "100001 is not in 1..=100000"]),
+        (&["evaluate", "--disturbances", "4294967295"], &["--disturbances", "4294967295 is not in 0..=10"]),
+        (&["evaluate", "--disturbances", "0,11"], &["--disturbances", "11 is not in 0..=10"]),
+        (&["evaluate", "--episode", "30"], &["episode is 30, it must be 0 to 29"]),
+        (&["train", "--episodes", "0"], &["--episodes", "0 is not in 1..=1000000"]),
+        (&["train", "--rounds", "0"], &["--rounds", "0 is not in 1..=100"]),
+        (&["train", "--seed", "18446744073709551615", "--rounds", "2"], &["--seed: 18446744073709551615"]),
+        (&["recovery", "--grid", "3"], &["grid is 3, it must be 4 to 96"]),
+        (&["recovery", "--repeats", "0"], &["repeats is 0, it must be 1 to 100"]),
+        (&["recovery", "--within-s", "NaN"], &["within_s is NaN, it must be 1 to 600"]),
+        (&["serve", "--keep", "0"], &["--keep", "0 is not in 1.."]),
+        (&["serve", "--keep-mb", "0"], &["--keep-mb", "0 is not in 1.."]),
+        (
+            &["maps", "generate", "--family", "tubes", "--out", "x", "--count", "0"],
+            &["--count", "0 is not in 1..=100000"],
+        ),
+    ] {
+        // No graphics would start with it.
+        let output = ferry(arguments).env("FERRY_ADAPTER", "nothing").output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            !output.status.success() && parts.iter().all(|part| message.contains(part)),
+            "{arguments:?}: {message}"
+        );
+    }
+}
+
+#[test]
+fn files_of_other_programs_are_named_with_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    // Photos are larger than a drawing may be.
+    let photo = [&b"\x89PNG\r\n\x1a\n"[..], &[0; 3 << 20]].concat();
+    for name in ["photo.png", "photo", "photo.svg"] {
+        std::fs::write(path(name), &photo).unwrap();
+        let message = failure(ferry(&["map"]).arg(path(name)).output().unwrap());
+        assert!(message.contains("an image of pixels, not a drawing") && message.contains("as SVG"), "{message}");
+    }
+    std::fs::write(path("x.onnx"), b"\x08\x07\x12\x07pytorch\x1a\x052.0.0").unwrap();
+    let message = failure(ferry(&["evaluate", "--policy"]).arg(path("x.onnx")).output().unwrap());
+    assert!(message.contains("an ONNX model") && message.contains("safetensors"), "{message}");
+}
+
+#[test]
+fn an_empty_variable_counts_as_unset_but_an_empty_token_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = ferry(&["serve", "--bind", "localhost:0", "--data"]);
+    for name in ["FERRY_TOKEN", "FERRY_ADAPTER", "FERRY_LOG", "FERRY_LOG_FORMAT"] {
+        command.env(name, "");
+    }
+    let server = Ferry::start(command.arg(folder.path()).stderr(Stdio::null()));
+    assert!(server.address.ip().is_loopback());
+    let message = failure(ferry(&["serve", "--bind", "127.0.0.1:0", "--token", ""]).output().unwrap());
+    assert!(message.contains("--token"), "{message}");
+    for wrong in ["localhost", "127.0.0.1", "localhost:http", "no such host:80"] {
+        let output = ferry(&["serve", "--bind", wrong]).output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success(), "{wrong}");
+        assert!(message.contains(wrong) && message.contains("localhost:8080"), "{message}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn signals_of_files_and_pipes_are_those_of_usual_commands() {
+    use std::os::unix::process::ExitStatusExt;
+    let folder = tempfile::tempdir().unwrap();
+    let limited = |arguments: &[&str]| {
+        let mut command = Command::new("sh");
+        command.args(["-c", "ulimit -f 0; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_ferry")]).args(arguments);
+        command
+    };
+    let mazes = limited(&["maps", "generate", "--family", "tubes", "--out"]).arg(folder.path().join("mazes")).output();
+    let message = failure(mazes.unwrap());
+    assert!(message.contains("tubes-1.svg") && message.contains("File too large"), "{message}");
+    // From its first write on, which may be that of a graphics driver.
+    let mut server = Ferry::serve(&mut limited(&[]), folder.path());
+    assert_eq!(server.child.try_wait().unwrap(), None);
+
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let unread =
+        ferry(&["map", "open"]).stdout(writer).stderr(Stdio::piped()).spawn().unwrap().wait_with_output().unwrap();
+    assert_eq!(
+        (unread.status.signal(), unread.stderr.as_slice()),
+        (Some(rustix::process::Signal::PIPE.as_raw()), &[][..])
+    );
+}
+
+/// A room that is learned with few images.
+const ROOM: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 250 120 100">
+    <rect x="-10" y="250" width="20" height="30"/></svg>"#;
+
+/// A training of the room, as quick as possible.
+fn train(folder: &Path, more: &[&str]) -> Command {
+    let mut command = ferry(&["train", "--map", "room.svg", "--episodes", "1"]);
+    for setting in ["images=1", "goals=1", "fractions=1", "choosing_fractions=1", "lanes=1", "warm_up=1"] {
+        command.args(["--set", setting]);
+    }
+    command.args(more).current_dir(folder);
+    command
+}
+
+#[test]
+fn a_training_overwrites_no_other_and_names_what_differs() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("room.svg"), ROOM).unwrap();
+    let policies = folder.path().join("data/policies");
+    let first = train(folder.path(), &["--set", "updates=2"]).output().unwrap();
+    assert!(first.status.success(), "{}", String::from_utf8_lossy(&first.stderr));
+    let file = policies.join("room.safetensors");
+    let bytes = std::fs::read(&file).unwrap();
+
+    let again = ["--set", "updates=2", "--seed", "2"];
+    let message = failure(train(folder.path(), &again).output().unwrap());
+    for part in ["room.safetensors exists already", "--out", "--resume", "--force"] {
+        assert!(message.contains(part), "{message}");
+    }
+    // What an interrupted training has left counts, too.
+    std::fs::rename(&file, folder.path().join("kept")).unwrap();
+    let message = failure(train(folder.path(), &again).output().unwrap());
+    assert!(message.contains("room.checkpoint exists already"), "{message}");
+    std::fs::rename(folder.path().join("kept"), &file).unwrap();
+    assert!(std::fs::read(&file).unwrap() == bytes);
+
+    let message = failure(train(folder.path(), &["--resume", "--set", "updates=3"]).output().unwrap());
+    assert!(message.contains("another recipe: updates is 2 there and 3 now"), "{message}");
+
+    let forced = train(folder.path(), &[&again[..], &["--force"]].concat()).output().unwrap();
+    assert!(forced.status.success() && std::fs::read(&file).unwrap() != bytes);
+}
+
+#[test]
+fn without_a_terminal_long_work_reports_in_lines_and_the_curve_grows() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("room.svg"), ROOM).unwrap();
+    let mut evaluation = ferry(&["evaluate", "--map", "open", "--episodes", "100000"]);
+    let mut training = train(folder.path(), &["--set", "updates=100000000"]);
+    for (command, part) in [(&mut evaluation, "/100000 trials, "), (&mut training, "/100000000 updates, ")] {
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+        let line = lines.find(|line| line.as_ref().unwrap().contains(part));
+        let curve = folder.path().join("data/policies/room.curve.csv");
+        let begun = Instant::now();
+        let points = || std::fs::read_to_string(&curve).map_or(0, |text| text.lines().count().saturating_sub(1));
+        while part.contains("updates") && points() < 2 && begun.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let line = line.expect("it ended without a line").unwrap();
+        assert!(line.ends_with(" left") && !line.contains('\r'), "{line}");
+        assert!(part.contains("trials") || points() >= 2, "{} points", points());
+    }
+}
+
+#[test]
+fn an_interrupted_evaluation_leaves_an_earlier_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("rows.csv");
+    std::fs::write(&csv, "earlier").unwrap();
+    // The adapter is opened after the files.
+    let mut command = ferry(&["evaluate", "--episodes", "1", "--csv"]);
+    failure(command.arg(&csv).env("FERRY_ADAPTER", "nothing").output().unwrap());
+    assert_eq!(std::fs::read_to_string(&csv).unwrap(), "earlier");
 }

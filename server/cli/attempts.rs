@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use self::episode::Episode;
 use self::minari::{DATA_SET, DataSet};
@@ -78,8 +77,7 @@ fn boards(chosen: &[ChallengeName], folder: &Path) -> anyhow::Result<Vec<Board>>
 /// Runs all attempts again and adds them. Returns how many are left out because they do not agree with their score.
 fn export(boards: &[Board], data_set: &mut DataSet) -> anyhow::Result<usize> {
     let attempts: usize = boards.iter().map(|(_, kept)| kept.len()).sum();
-    let bar = ProgressBar::new(attempts as u64)
-        .with_style(ProgressStyle::with_template("running attempts again {bar:30} {pos}/{len}, {eta} left")?);
+    let bar = super::progress::progress(attempts as u64, "attempts run again")?;
     let gpu = super::open_gpu()?;
     let mut left_out = 0;
     for (name, kept) in boards {

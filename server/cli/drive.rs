@@ -11,7 +11,7 @@ use crate::ur::Twin;
 pub struct Arguments {
     /// Address of the robot's controller. Its RTDE (port 30004) is read, and
     /// its dashboard (29999) is asked for the model
-    #[arg(long, value_name = "ADDRESS")]
+    #[arg(long, value_name = "ADDRESS", value_parser = super::host)]
     robot: IpAddr,
     /// Let Ferry move the robot while a button on the page is held. Ferry has never moved a real arm: read docs/robot.md
     /// first

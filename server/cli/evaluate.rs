@@ -7,13 +7,13 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use anyhow::Context;
-use indicatif::{ProgressBar, ProgressStyle};
+use anyhow::{Context, ensure};
 
+use super::progress::progress;
 use crate::camera::Gpu;
 use crate::evaluate::{
-    Cell, Contender, Episode, EvaluateError, Experiment, Manner, Part, Plan, Report, Shard, Trials, Variation, Watch,
-    run, run_one, run_trials, unrecorded,
+    Cell, Contender, DISTURBANCES, EPISODES, Episode, EvaluateError, Experiment, Manner, Part, Plan, Report, Shard,
+    Trials, Variation, Watch, run, run_one, run_trials, unrecorded,
 };
 use crate::files::replace;
 use crate::policy::Policy;
@@ -33,10 +33,10 @@ pub struct Arguments {
     #[arg(long, value_delimiter = ',', default_value = "attractor")]
     controller: Vec<ControllerName>,
     /// Scripted disturbances per trial; several numbers, separated by commas, give several rows
-    #[arg(long, value_delimiter = ',', default_value = "0")]
+    #[arg(long, value_delimiter = ',', default_value = "0", value_parser = super::within(DISTURBANCES))]
     disturbances: Vec<u32>,
     /// Trials per row
-    #[arg(long, default_value_t = 30)]
+    #[arg(long, default_value_t = 30, value_parser = super::within(EPISODES))]
     episodes: u32,
     /// Seed of the trials: all controllers get the same starts, goals and pushes
     #[arg(long, default_value_t = 1)]
@@ -63,7 +63,8 @@ pub struct Arguments {
     /// Record every trial to this folder: .rrd for Rerun, .ferry for `ferry replay`
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
-    /// Run only every N-th trial, beginning with the I-th, and write them to --out for `ferry merge`
+    /// Run only every N-th trial, beginning with the I-th, and write them to --out for `ferry merge`. What is interrupted leaves
+    /// nothing, so that of a long evaluation in shards only one shard must run again
     #[arg(long, value_name = "I/N", requires = "out", conflicts_with_all = ["episode", "record"])]
     shard: Option<Shard>,
     /// File of the shard
@@ -91,7 +92,7 @@ pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 fn run_shard(experiments: &[Experiment], shard: Shard, path: &Path) -> anyhow::Result<ExitCode> {
     let gpu = super::open_gpu()?;
     let trials = shard.trials(experiments);
-    let bar = progress_bar(trials.len() as u64)?;
+    let bar = progress(trials.len() as u64, "trials")?;
     let watch = Watch { stop: &AtomicBool::new(false), progress: &|_, _| bar.inc(1), recorders: &unrecorded };
     let episodes = run_trials(experiments, trials, &gpu, &watch)?;
     bar.finish_and_clear();
@@ -101,11 +102,15 @@ fn run_shard(experiments: &[Experiment], shard: Shard, path: &Path) -> anyhow::R
 }
 
 fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
+    let episodes = arguments.episodes;
+    if let Some(index) = arguments.episode.filter(|&index| index >= episodes) {
+        return Err(EvaluateError::Episode { index, episodes }.into());
+    }
     let plan = Plan {
         maps: arguments.map.clone(),
         contenders: arguments.controller.iter().map(|&name| Contender::Own(name)).collect(),
         disturbances: arguments.disturbances.clone(),
-        episodes: arguments.episodes,
+        episodes,
         seed: arguments.seed,
         parameters: Parameters::default().with(&arguments.set).context("--set")?,
         vary: arguments.vary.clone(),
@@ -118,7 +123,7 @@ fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
 /// What each trial gave, for a baseline.
 pub(super) fn trials(arguments: &Arguments, gpu: &Arc<Gpu>) -> anyhow::Result<Vec<Trials>> {
     let has_other = arguments.shard.is_some() || arguments.episode.is_some() || arguments.record.is_some();
-    anyhow::ensure!(!has_other, "a baseline is made without --shard, --episode and --record");
+    ensure!(!has_other, "a baseline is made without --shard, --episode and --record");
     let experiments = experiments(arguments)?;
     let episodes = evaluate(arguments, &experiments, gpu)?;
     let row = |(experiment, episodes): (&Experiment, &Vec<Episode>)| {
@@ -127,13 +132,13 @@ pub(super) fn trials(arguments: &Arguments, gpu: &Arc<Gpu>) -> anyhow::Result<Ve
     Ok(experiments.iter().zip(&episodes).map(row).collect())
 }
 
-/// Runs the experiments on all cores, with a progress bar.
+/// Runs the experiments on all cores, and shows the progress.
 fn evaluate(arguments: &Arguments, experiments: &[Experiment], gpu: &Arc<Gpu>) -> anyhow::Result<Vec<Vec<Episode>>> {
     let trials = match arguments.episode {
         Some(_) => experiments.len() as u64,
         None => experiments.len() as u64 * u64::from(arguments.episodes),
     };
-    let bar = progress_bar(trials)?;
+    let bar = progress(trials, "trials")?;
     let failed = std::sync::atomic::AtomicU32::new(0);
     let watch = Watch {
         stop: &AtomicBool::new(false),
@@ -160,13 +165,6 @@ fn evaluate(arguments: &Arguments, experiments: &[Experiment], gpu: &Arc<Gpu>) -
     };
     bar.finish_and_clear();
     Ok(episodes)
-}
-
-pub(super) fn progress_bar(trials: u64) -> anyhow::Result<ProgressBar> {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} trials, {msg}{elapsed}, {eta} left")?;
-    let bar = ProgressBar::new(trials).with_style(style);
-    bar.enable_steady_tick(std::time::Duration::from_millis(500));
-    Ok(bar)
 }
 
 fn recorder(arguments: &Arguments, experiment: &Experiment, index: u32) -> Result<Box<dyn Sink>, EvaluateError> {

@@ -31,7 +31,9 @@ impl Formats {
     /// Opens the files before anything runs, so that an error is reported early.
     pub fn prepare(&self) -> anyhow::Result<()> {
         for path in [&self.csv, &self.html].into_iter().flatten() {
-            std::fs::write(path, "").with_context(|| path.display().to_string())?;
+            // What is in the file stays until there is something new to write.
+            let opened = std::fs::OpenOptions::new().append(true).create(true).open(path);
+            opened.with_context(|| path.display().to_string())?;
         }
         Ok(())
     }

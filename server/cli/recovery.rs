@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use super::evaluate::{interval, progress_bar, table};
+use super::evaluate::{interval, table};
 use super::formats::{Formats, Formatted};
+use super::progress::progress;
 use crate::camera::Gpu;
 use crate::evaluate::{EvaluateError, Shard, Trials};
 use crate::files::replace;
@@ -55,7 +56,8 @@ pub struct Arguments {
     /// Record every trial to this folder: .rrd for Rerun, .ferry for `ferry replay`, and .json as a test case
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
-    /// Run only every N-th trial of the finest grid, beginning with the I-th, and write them to --out for `ferry merge`
+    /// Run only every N-th trial of the finest grid, beginning with the I-th, and write them to --out for `ferry merge`. What is
+    /// interrupted leaves nothing, so that of a long map in shards only one shard must run again
     #[arg(long, value_name = "I/N", requires = "out", conflicts_with = "record")]
     shard: Option<Shard>,
     /// File of the shard
@@ -66,6 +68,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    query(arguments, arguments.full).check(false)?;
     let gpu = super::open_gpu()?;
     let adapter = gpu.adapter_name();
     if let Some((shard, path)) = arguments.shard.zip(arguments.out.as_deref()) {
@@ -106,9 +109,8 @@ pub(super) fn trials(arguments: &Arguments, gpu: &Arc<Gpu>) -> anyhow::Result<Ve
     Ok(recovery.controllers().into_iter().enumerate().map(row).collect())
 }
 
-/// Tries everything on all cores, with a progress bar.
-fn survey(arguments: &Arguments, gpu: &Arc<Gpu>, is_full: bool) -> anyhow::Result<(Recovery, Findings)> {
-    let query = RecoveryQuery {
+fn query(arguments: &Arguments, is_full: bool) -> RecoveryQuery {
+    RecoveryQuery {
         kind: arguments.kind,
         controllers: arguments.controller.clone(),
         grid: arguments.grid,
@@ -116,18 +118,22 @@ fn survey(arguments: &Arguments, gpu: &Arc<Gpu>, is_full: bool) -> anyhow::Resul
         seed: arguments.seed,
         within_s: arguments.within_s,
         is_full,
-    };
+    }
+}
+
+/// Tries everything on all cores, and shows the progress.
+fn survey(arguments: &Arguments, gpu: &Arc<Gpu>, is_full: bool) -> anyhow::Result<(Recovery, Findings)> {
     let plan = RecoveryPlan {
         map: arguments.map.clone(),
         scenario: arguments.scenario.clone(),
         at_s: arguments.at_s,
-        query,
+        query: query(arguments, is_full),
         changes: arguments.set.clone(),
         program: None,
     };
     let recovery = plan.recovery(gpu)?;
     let life = Life::new(Findings::default());
-    let bar = progress_bar(0)?;
+    let bar = progress(0, "trials")?;
     let recorders = |name: &str| -> Result<Box<dyn Sink>, EvaluateError> {
         let Some(folder) = &arguments.record else { return Ok(Box::new(Nowhere::default())) };
         let recorder =

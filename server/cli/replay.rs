@@ -5,7 +5,6 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use anyhow::Context;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::camera::{CameraError, ImageSource};
 use crate::policy::Library;
@@ -36,8 +35,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         );
     }
     let ticks = log.entries.iter().filter(|entry| matches!(entry, Entry::Tick(_))).count();
-    let bar = ProgressBar::new(ticks as u64)
-        .with_style(ProgressStyle::with_template("replaying {bar:30} {pos}/{len} ticks, {eta} left")?);
+    let bar = super::progress::progress(ticks as u64, "ticks replayed")?;
     let gpu = if arguments.camera { Some(super::open_gpu()?) } else { None };
     let mut cameras = |arena: &Arena| -> Result<Box<dyn ImageSource>, CameraError> {
         let gpu = gpu.as_ref().expect("the adapter is open if cameras are used");

@@ -1,12 +1,14 @@
 //! `ferry serve`.
 
-use std::net::{IpAddr, SocketAddr};
+use std::io::Write;
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::Context;
+use clap::builder::RangedU64ValueParser;
 use tokio::sync::watch;
 
 use crate::http::{self, EmbeddedFile, Page};
@@ -22,9 +24,9 @@ const END_WITHIN: Duration = Duration::from_secs(1);
 
 #[derive(clap::Args, Clone)]
 pub struct Arguments {
-    /// Address to listen on; port 0 picks a free one
-    #[arg(long, default_value = "127.0.0.1:8080")]
-    bind: SocketAddr,
+    /// Address to listen on, or the name of this host, with a port; port 0 picks a free one
+    #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:8080", value_parser = listened)]
+    bind: Listened,
     /// Access token that clients must send, 64 hexadecimal digits (`ferry token` makes one). Other users of this
     /// machine can read a command line: prefer --token-file or FERRY_TOKEN
     #[arg(long, env = "FERRY_TOKEN", hide_env_values = true, value_parser = secret)]
@@ -50,14 +52,14 @@ pub struct Arguments {
     #[arg(long, default_value = "data")]
     data: PathBuf,
     /// Largest number of kept recordings; a session writes one every ten minutes
-    #[arg(long, value_name = "COUNT", default_value_t = Retention::default().max_parts)]
+    #[arg(long, value_name = "COUNT", default_value_t = Retention::default().max_parts, value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     keep: usize,
     /// Largest total size of kept recordings, in megabytes
-    #[arg(long, value_name = "MB", default_value_t = Retention::default().max_bytes >> 20)]
+    #[arg(long, value_name = "MB", default_value_t = Retention::default().max_bytes >> 20, value_parser = clap::value_parser!(u64).range(1..))]
     keep_mb: u64,
     /// Answer as the controller of a UR5 would, on this address; the arm is that of the session `main`. Ports 29999
     /// (dashboard) and 30004 (RTDE) report it
-    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1")]
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1", value_parser = super::host)]
     robot_server: Option<IpAddr>,
     /// Let --robot-server listen on another address than loopback. It has no password, as a real one has none
     #[arg(long, requires = "robot_server")]
@@ -77,6 +79,31 @@ struct Secret(String);
 
 fn secret(text: &str) -> Result<Secret, std::convert::Infallible> {
     Ok(Secret(text.to_owned()))
+}
+
+/// What `--bind` means.
+#[derive(Clone)]
+struct Listened {
+    address: SocketAddr,
+    /// The name of the host, if it is one.
+    name: Option<String>,
+}
+
+fn listened(text: &str) -> Result<Listened, String> {
+    let example = |error| format!("{error}; it must be like 127.0.0.1:8080, [::1]:8080 or localhost:8080");
+    let found = text.to_socket_addrs().map_err(|error| example(error.to_string()))?;
+    let address =
+        found.min_by_key(SocketAddr::is_ipv6).ok_or_else(|| example("this name has no address".to_owned()))?;
+    let name = text.rsplit_once(':').map(|(name, _)| name.to_owned());
+    Ok(Listened { address, name: name.filter(|_| text.parse::<SocketAddr>().is_err()) })
+}
+
+impl Listened {
+    /// The address that browsers use for a name. On loopback only `localhost` and the addresses are meant.
+    fn origin(&self, port: u16) -> Option<http::Origin> {
+        let name = self.name.as_ref().filter(|_| !self.address.ip().is_loopback())?;
+        format!("http://{name}:{port}").parse().ok()
+    }
 }
 
 /// The token from the options, if one is set.
@@ -145,9 +172,10 @@ async fn robot_ports(arguments: &Arguments) -> anyhow::Result<Option<Ports>> {
 async fn serve(arguments: &Arguments, page: Page, twin: Option<Arc<Twin>>) -> anyhow::Result<()> {
     let token = token(arguments)?;
     let opening = opening(arguments.scenario.as_deref().unwrap_or("opening"))?;
-    let listener = http::listen(arguments.bind).await?;
+    let listener = http::listen(arguments.bind.address).await?;
     let address = listener.local_addr()?;
-    let access = http::Access::new(address, token, &arguments.origin)?;
+    let origins: Vec<_> = arguments.origin.iter().cloned().chain(arguments.bind.origin(address.port())).collect();
+    let access = http::Access::new(address, token, &origins)?;
     let model = arguments.robot_server_model.as_deref().map(model).transpose()?;
     let ports = robot_ports(arguments).await?;
     // Only after the checks above, so that a refused start leaves no folder behind.
@@ -176,19 +204,13 @@ async fn serve(arguments: &Arguments, page: Page, twin: Option<Arc<Twin>>) -> an
     if let Some(twin) = twin {
         tokio::spawn(robot_client::keep(twin, stopping));
     }
-    println!("listening on http://{address}");
+    // A full disk behind standard output, or a reader that is gone, does not end the server.
+    let _ = writeln!(std::io::stdout(), "listening on http://{address}");
     if arguments.open
         && let Err(error) = opener::open(format!("http://{address}"))
     {
         tracing::warn!(%error, "the browser could not be opened");
     }
-    // Without a handler, a write beyond the limit of a file's size would end the process. Now the write fails, and is
-    // treated like a full disk.
-    #[cfg(unix)]
-    let _file_size_signal = {
-        use tokio::signal::unix::{SignalKind, signal};
-        signal(SignalKind::from_raw(rustix::process::Signal::XFSZ.as_raw()))?
-    };
     tokio::spawn(async move {
         stop_requested().await;
         // The server may already have ended.
@@ -211,4 +233,28 @@ async fn stop_requested() {
         }
     }
     let _ = tokio::signal::ctrl_c().await;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_and_names_are_listened_on() {
+        for (text, address) in
+            [("127.0.0.1:80", "127.0.0.1:80"), ("[::1]:80", "[::1]:80"), ("localhost:0", "127.0.0.1:0")]
+        {
+            let found = listened(text).unwrap();
+            assert_eq!(found.address, address.parse().unwrap());
+            assert!(found.origin(80).is_none(), "loopback has its own names");
+        }
+        let lab = Listened { address: "10.0.0.7:0".parse().unwrap(), name: Some("lab.local".to_owned()) };
+        assert_eq!(lab.origin(8080).unwrap().to_string(), "http://lab.local:8080");
+        for text in ["localhost", "80", "127.0.0.1", "localhost:99999", "no such host:80", ""] {
+            let error = listened(text).err().unwrap();
+            assert!(error.contains("localhost:8080"), "{text:?}: {error}");
+        }
+        assert!(super::super::host("localhost").unwrap().is_loopback());
+        assert!(super::super::host("no such host").is_err());
+    }
 }

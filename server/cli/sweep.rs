@@ -5,8 +5,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use crate::learn::sweep::{STEP_M, Sweep, cells};
 use crate::trial::Arena;
 
@@ -24,8 +22,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let arena = Arena::open(&arguments.map)?;
     let gpu = super::open_gpu()?;
     let (columns, rows) = cells(&arena, STEP_M);
-    let bar = ProgressBar::new((columns * rows) as u64)
-        .with_style(ProgressStyle::with_template("images {bar:30} {pos}/{len} {eta} left")?);
+    let bar = super::progress::progress((columns * rows) as u64, "images")?;
     let started = Instant::now();
     let sweep = Sweep::open(&arena, &gpu, &arguments.out, STEP_M, &[], &|| {
         bar.inc(1);

@@ -53,7 +53,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let gpu = super::open_gpu()?;
     let shapes = arguments.shape.map_or_else(|| vec![Shape::Square, Shape::Circle], |shape| vec![shape]);
     let mut rows = Vec::new();
-    for (shape, aim) in shapes.into_iter().flat_map(|shape| Aim::ALL.map(|aim| (shape, aim))) {
+    let courses: Vec<_> = shapes.into_iter().flat_map(|shape| Aim::ALL.map(|aim| (shape, aim))).collect();
+    let bar = super::progress::progress(courses.len() as u64, "paths")?;
+    for (shape, aim) in courses {
         let course = Course {
             shape,
             size_m: arguments.size,
@@ -64,7 +66,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             seed: arguments.seed,
         };
         rows.push(Row { shape, aim, followed: course.run(&gpu)? });
+        bar.inc(1);
     }
+    bar.finish_and_clear();
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&rows)?);
         return Ok(ExitCode::SUCCESS);

@@ -1,5 +1,6 @@
 //! `ferry train`.
 
+mod files;
 mod generated;
 
 use std::ops::ControlFlow;
@@ -8,12 +9,14 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, ensure};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 
-use crate::learn::sweep::{STEP_M, Sweep};
+use super::progress::progress;
+use crate::files::replace;
+use crate::learn::sweep::{STEP_M, Sweep, cells};
 use crate::learn::{
-    Cells, Curve, EXAMINATION_SEED, Ending, Frame, GoalSet, MOST_TERRAINS, Marks, Recipe, RecipeName, Saving, State,
-    Terrain, drive, revision, wall_waves_m,
+    Cells, Curve, EXAMINATION_SEED, Ending, Frame, GoalSet, MOST_TERRAINS, Marks, Recipe, RecipeName, Run, Saving,
+    State, Terrain, drive, revision, wall_waves_m,
 };
 use crate::policy::{Architecture, Policy};
 use crate::trial::Arena;
@@ -28,9 +31,12 @@ pub struct Arguments {
     /// Maps used only in the final examination
     #[arg(long, value_delimiter = ',')]
     unseen: Vec<String>,
-    /// The policy's file; checkpoint and curve are written beside it
-    #[arg(long, default_value = "data/policies/colon.safetensors")]
-    out: PathBuf,
+    /// The policy's file; checkpoint and curve are written beside it. Without it: data/policies/MAP.safetensors
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Overwrite the files of another training
+    #[arg(long, conflicts_with = "resume")]
+    force: bool,
     /// Seed of the run, or of the first round
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -54,7 +60,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Random starts and goals of the final examination
-    #[arg(long, default_value_t = 2000)]
+    #[arg(long, default_value_t = 2000, value_parser = super::within(1..=1_000_000))]
     episodes: u32,
     /// Folder for image sweeps
     #[arg(long, default_value = "data/sweeps")]
@@ -80,21 +86,18 @@ fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let recipe: Recipe = super::with_changes(&recipe, &arguments.set)?;
     recipe.check().context("--set")?;
     ensure!(!arguments.map.is_empty(), "--map: at least one map is needed");
+    let out = files::out(arguments);
+    let rounds = files::rounds(arguments, &out)?;
+    files::check(arguments, &out, &rounds)?;
     let terrains = open(&arguments.map, &recipe, &arguments.sweeps)?;
     let unseen = open(&arguments.unseen, &recipe, &arguments.sweeps)?;
-    if let Some(folder) = arguments.out.parent() {
-        std::fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
-    }
+    files::create_folder(&out)?;
     let mut curves = Vec::new();
-    for seed in arguments.seed..arguments.seed + arguments.rounds {
-        let out = match arguments.rounds {
-            1 => arguments.out.clone(),
-            _ => arguments.out.with_extension(format!("{seed}.safetensors")),
-        };
-        let curve = round(arguments, &recipe, start.as_deref(), seed, &out, [&terrains, &unseen])?;
+    for (seed, out) in &rounds {
+        let curve = round(arguments, &recipe, start.as_deref(), *seed, out, [&terrains, &unseen])?;
         curves.push(curve);
     }
-    let figure = arguments.out.with_extension("curve.svg");
+    let figure = out.with_extension("curve.svg");
     std::fs::write(&figure, Curve::figure(&curves)?).with_context(|| format!("{}", figure.display()))?;
     println!("figure      {}", figure.display());
     Ok(ExitCode::SUCCESS)
@@ -109,27 +112,22 @@ fn round(
     out: &Path,
     [terrains, unseen]: [&[Terrain]; 2],
 ) -> anyhow::Result<Curve> {
-    let checkpoint = out.with_extension("checkpoint");
-    let (mut state, mut curve) = match arguments.resume {
+    let (mut state, curve) = match arguments.resume {
         true => {
-            let (state, spent_s) = State::read(&checkpoint, recipe, seed, terrains)?;
+            let (state, spent_s) = State::read(&out.with_extension("checkpoint"), recipe, seed, terrains)?;
             (state, Curve::resumed(spent_s))
         }
         false => (State::begin(recipe.clone(), seed, terrains, start)?, Curve::default()),
     };
-    let bar = progress(recipe.updates, state.memory.updates)?;
+    let bar = bar_of(recipe.updates, state.memory.updates)?;
     let (begun, steps, updates) = (Instant::now(), state.steps, state.memory.updates);
-    let saving = Saving { checkpoint: &checkpoint, period: CHECKPOINT_PERIOD };
-    drive(&mut state, terrains, saving, &mut curve, &mut |state, _| {
+    let curve = learn(&mut state, terrains, out, curve, &mut |state| {
         let rate = |now: u64, then: u64| (now - then) as f64 / begun.elapsed().as_secs_f64();
         bar.set_position(state.memory.updates);
         bar.set_message(message(state, rate(state.steps, steps), rate(state.memory.updates, updates)));
-        true
     })?;
     bar.finish_and_clear();
     std::fs::write(out, state.policy(&revision())?).with_context(|| format!("{}", out.display()))?;
-    let data = out.with_extension("curve.csv");
-    std::fs::write(&data, curve.csv()).with_context(|| format!("{}", data.display()))?;
     println!(
         "seed {seed}      {} updates, {} steps, {} episodes in {:.1} min",
         state.memory.updates,
@@ -154,14 +152,36 @@ fn round(
         println!("values      {}", describe_values(&state, terrain, terrains)?);
     }
     println!("policy      {}", out.display());
-    println!("curve       {}", data.display());
+    println!("curve       {}", out.with_extension("curve.csv").display());
     Ok(curve)
 }
 
+/// Advances a run to its end. The curve is written as it grows.
+fn learn<R: Run>(
+    run: &mut R,
+    worlds: &[R::World],
+    out: &Path,
+    mut curve: Curve,
+    watch: &mut dyn FnMut(&R),
+) -> anyhow::Result<Curve> {
+    let data = out.with_extension("curve.csv");
+    let write = |curve: &Curve| replace(&data, curve.csv().as_bytes()).with_context(|| data.display().to_string());
+    curve.points = run.points().to_vec();
+    let mut written = write(&curve);
+    if written.is_ok() {
+        let saving = Saving { checkpoint: &out.with_extension("checkpoint"), period: CHECKPOINT_PERIOD };
+        drive(run, worlds, saving, &mut curve, &mut |run, curve| {
+            watch(run);
+            written = write(curve);
+            written.is_ok()
+        })?;
+    }
+    written.map(|()| curve)
+}
+
 /// A bar for the updates of a run.
-fn progress(updates: u64, done: u64) -> anyhow::Result<ProgressBar> {
-    let bar = ProgressBar::new(updates)
-        .with_style(ProgressStyle::with_template("{bar:30} {pos}/{len} updates, {msg}, {eta} left")?);
+fn bar_of(updates: u64, done: u64) -> anyhow::Result<ProgressBar> {
+    let bar = progress(updates, "updates")?;
     bar.set_position(done);
     bar.reset_eta();
     Ok(bar)
@@ -189,7 +209,7 @@ fn message(state: &State, steps_per_s: f64, updates_per_s: f64) -> String {
     if let Some(loss) = state.curve.last().and_then(|point| point.loss.mean()) {
         parts.push(format!("loss {loss:.4}"));
     }
-    parts.push(format!("{steps_per_s:.0} steps/s, {updates_per_s:.1} updates/s"));
+    parts.push(format!("{steps_per_s:.0} steps/s, {updates_per_s:.1} updates/s, "));
     parts.join(", ")
 }
 
@@ -230,8 +250,9 @@ fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<
     let gpu = if names.is_empty() { None } else { Some(super::open_gpu()?) };
     let mut terrains = Vec::new();
     for ((arena, waves_m), gpu) in arenas.iter().zip(waves_m).zip(gpu.iter().cycle()) {
-        let bar = ProgressBar::no_length().with_style(ProgressStyle::with_template("{msg}: {pos} images taken")?);
-        bar.set_message(arena.map.name().to_owned());
+        let (columns, rows) = cells(arena, STEP_M);
+        let bar = progress((columns * rows * waves_m.len()) as u64, "images")?;
+        bar.set_message(format!("{}, ", arena.map.name()));
         for wave_m in waves_m {
             let sweep = Sweep::open(arena, gpu, sweeps, STEP_M, &wave_m, &|| {
                 bar.inc(1);

@@ -1,6 +1,6 @@
 //! Random trials in bulk: every controller gets the same starts, goals, seeds and disturbances.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, RangeInclusive};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::course::Course;
 use super::figure::Trace;
 use super::manner::Manner;
-use super::{Cell, Setting, VariationError};
+use super::{Cell, DISTURBANCES, Setting, VariationError};
 use crate::camera::{Camera, CameraError, Gpu, ImageSource, Subject};
 use crate::control::CONTROL_PERIOD_S;
 use crate::image::CameraFrame;
@@ -22,6 +22,9 @@ use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::trial::{
     Arena, Beginning, GOAL_RADIUS_M, LEGS_PER_GOAL, Nowhere, Phase, Sink, Tally, TickRecord, TrialError,
 };
+
+/// Trials per row.
+pub const EPISODES: RangeInclusive<u32> = 1..=100_000;
 
 /// A map prepared for many trials.
 pub struct Venue {
@@ -160,8 +163,11 @@ impl Episode {
 #[derive(Debug, thiserror::Error)]
 pub enum EvaluateError {
     /// `episodes` is out of range.
-    #[error("episodes is {0}, it must be 1 to 100000")]
+    #[error("episodes is {0}, it must be {first} to {last}", first = EPISODES.start(), last = EPISODES.end())]
     Episodes(u32),
+    /// `disturbances` is out of range.
+    #[error("disturbances is {0}, it must be {first} to {last}", first = DISTURBANCES.start(), last = DISTURBANCES.end())]
+    Disturbances(u32),
     /// The trial index is out of range.
     #[error("episode is {index}, it must be 0 to {}", episodes - 1)]
     Episode { index: u32, episodes: u32 },
@@ -313,7 +319,7 @@ pub fn run_trials(
     gpu: &Arc<Gpu>,
     watch: &Watch<'_>,
 ) -> Result<Vec<(usize, Episode)>, EvaluateError> {
-    experiments.iter().try_for_each(check_episodes)?;
+    experiments.iter().try_for_each(check_counts)?;
     let done = trials.into_par_iter().map(|(number, index)| {
         let episode = run_one(&experiments[number], index, gpu, watch)?;
         (watch.progress)(number, &episode);
@@ -322,10 +328,12 @@ pub fn run_trials(
     done.collect()
 }
 
-fn check_episodes(experiment: &Experiment) -> Result<(), EvaluateError> {
-    match experiment.episodes {
-        1..=100_000 => Ok(()),
-        other => Err(EvaluateError::Episodes(other)),
+fn check_counts(experiment: &Experiment) -> Result<(), EvaluateError> {
+    let Experiment { episodes, cell: Cell { disturbances, .. }, .. } = experiment;
+    match () {
+        () if !EPISODES.contains(episodes) => Err(EvaluateError::Episodes(*episodes)),
+        () if !DISTURBANCES.contains(disturbances) => Err(EvaluateError::Disturbances(*disturbances)),
+        () => Ok(()),
     }
 }
 
@@ -336,7 +344,7 @@ pub fn run_one(
     gpu: &Arc<Gpu>,
     watch: &Watch<'_>,
 ) -> Result<Episode, EvaluateError> {
-    check_episodes(experiment)?;
+    check_counts(experiment)?;
     if index >= experiment.episodes {
         return Err(EvaluateError::Episode { index, episodes: experiment.episodes });
     }

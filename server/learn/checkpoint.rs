@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
@@ -20,6 +21,24 @@ impl CheckpointError {
     pub fn refused(path: &Path, reason: impl Into<String>) -> Self {
         Self::Refused { path: path.to_owned(), reason: reason.into() }
     }
+}
+
+/// Which settings of a kept recipe differ from the wanted one; `None` if all are equal.
+pub fn differences<R: Serialize + PartialEq>(kept: &R, wanted: &R) -> Option<String> {
+    fn list(name: &str, kept: &Value, wanted: &Value, found: &mut Vec<String>) {
+        match (kept, wanted) {
+            (Value::Object(kept), Value::Object(wanted)) => {
+                let inside = |field: &String| if name.is_empty() { field.clone() } else { format!("{name}.{field}") };
+                kept.iter().for_each(|(field, value)| list(&inside(field), value, &wanted[field], found));
+            }
+            _ if kept == wanted => {}
+            _ => found.push(format!("{name} is {kept} there and {wanted} now")),
+        }
+    }
+    let value = |recipe: &R| serde_json::to_value(recipe).unwrap_or_default();
+    let mut found = Vec::new();
+    list("", &value(kept), &value(wanted), &mut found);
+    (kept != wanted).then(|| format!("it has another recipe: {}", found.join(", ")))
 }
 
 /// Saves a run and `spent_s`, the seconds that it took so far. Writes to a temporary name first, so that no reader finds

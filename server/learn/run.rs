@@ -55,6 +55,7 @@ pub fn drive<R: Run>(
     let mut failure = None;
     run.advance(worlds, &mut |run| {
         curve.time(begun.elapsed().as_secs_f64());
+        curve.points = run.points().to_vec();
         let goes_on = watch(run, curve) && !run.is_done();
         if !goes_on || saved.elapsed() >= saving.period {
             failure = run.write(saving.checkpoint, curve.spent_s()).err();
@@ -62,6 +63,7 @@ pub fn drive<R: Run>(
         }
         goes_on && failure.is_none()
     })?;
+    // Also of a run that was done already.
     curve.points = run.points().to_vec();
     failure.map_or(Ok(()), Err)
 }

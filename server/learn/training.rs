@@ -182,11 +182,11 @@ impl State {
     pub fn read(path: &Path, recipe: &Recipe, seed: u64, terrains: &[Terrain]) -> Result<(Self, f64), TrainingError> {
         let (state, spent_s): (Self, f64) = checkpoint::read(path, VERSION)?;
         let refuse = |reason: &str| Err(CheckpointError::refused(path, reason).into());
-        match () {
-            () if state.recipe != *recipe => refuse("it has another recipe"),
-            () if state.seed != seed => refuse(&format!("its seed is {}, not {seed}", state.seed)),
-            () if state.maps != maps(terrains) => refuse(&format!("its maps are {:?}", state.maps)),
-            () => Ok((state, spent_s)),
+        match checkpoint::differences(&state.recipe, recipe) {
+            Some(differences) => refuse(&differences),
+            None if state.seed != seed => refuse(&format!("its seed is {}, not {seed}", state.seed)),
+            None if state.maps != maps(terrains) => refuse(&format!("its maps are {:?}", state.maps)),
+            None => Ok((state, spent_s)),
         }
     }
 }

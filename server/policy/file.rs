@@ -80,11 +80,19 @@ pub enum PolicyError {
     #[error("policy: the file has {bytes} bytes, the limit is {MAX_BYTES}")]
     TooLarge { bytes: u64 },
     /// The header is longer than that of a policy can be.
-    #[error("policy: the header claims {bytes} bytes, the limit is {MAX_HEADER_BYTES}")]
+    #[error(
+        "policy: not a safetensors file of Ferry: its header would have {bytes} bytes, the limit is {MAX_HEADER_BYTES}"
+    )]
     Header {
         /// The value of the file's first eight bytes.
         bytes: u64,
     },
+    /// A file of another format.
+    #[error(
+        "policy: this is {0}, which Ferry does not read; it reads the safetensors files that it writes, such as those of `ferry \
+         train`; other networks carry the bead as a program (docs/python.md)"
+    )]
+    Foreign(&'static str),
     /// Not a safetensors file.
     #[error("policy: not a safetensors file: {0}")]
     Format(#[from] safetensors::SafeTensorError),
@@ -173,7 +181,7 @@ impl Policy {
         // Checked before parsing, so that the file cannot determine how much is read.
         let header = bytes.first_chunk().map_or(0, |length| u64::from_le_bytes(*length));
         if header > MAX_HEADER_BYTES {
-            return Err(PolicyError::Header { bytes: header });
+            return Err(foreign(bytes).map_or(PolicyError::Header { bytes: header }, PolicyError::Foreign));
         }
         if let Some(name) = twice(bytes, header as usize) {
             return Err(PolicyError::Twice { name });
@@ -181,9 +189,13 @@ impl Policy {
         let file = SafeTensors::deserialize(bytes)?;
         let (_, metadata) = SafeTensors::read_metadata(bytes)?;
         let text = metadata.metadata().as_ref().and_then(|entries| entries.get(KEY));
-        let text = text.ok_or_else(|| PolicyError::Manifest(format!("the metadata has no {KEY:?}")))?;
+        let text = text.ok_or_else(|| {
+            PolicyError::Manifest(format!("the metadata has no {KEY:?}: another program has written it"))
+        })?;
+        let mut json = serde_json::Deserializer::from_str(text);
         let manifest: Manifest =
-            serde_json::from_str(text).map_err(|error| PolicyError::Manifest(error.to_string()))?;
+            serde_path_to_error::deserialize(&mut json).map_err(|error| PolicyError::Manifest(error.to_string()))?;
+        json.end().map_err(|error| PolicyError::Manifest(error.to_string()))?;
         if manifest.version != Manifest::VERSION {
             let (found, expected) = (manifest.version, Manifest::VERSION);
             return Err(PolicyError::Manifest(format!("version is {found}, expected {expected}")));
@@ -228,6 +240,18 @@ impl Policy {
             .map(|(spec, bytes)| Ok((&spec.name, TensorView::new(Dtype::F32, spec.shape.clone(), bytes)?)))
             .collect::<Result<Vec<_>, safetensors::SafeTensorError>>()?;
         Ok(safetensors::serialize(views, Some(HashMap::from([(KEY.to_owned(), text)])))?)
+    }
+}
+
+/// What a file of another format is, by its first bytes.
+fn foreign(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        // `ModelProto`: the version, then one of its other fields.
+        [0x08, _, 0x12 | 0x1a | 0x22 | 0x28 | 0x32 | 0x3a | 0x42, ..] => Some("an ONNX model"),
+        [b'P', b'K', 3, 4, ..] => Some("a zip archive, as PyTorch and NumPy write them"),
+        [0x80, 2..=5, ..] => Some("a Python pickle, as PyTorch and scikit-learn write them"),
+        [0x89, b'H', b'D', b'F', ..] => Some("an HDF5 file, as Keras writes them"),
+        _ => None,
     }
 }
 

@@ -95,7 +95,7 @@ def train(study, changes, seed):
     """Counts of the last examination: episodes, reached, collided, out of steps."""
     OUT.mkdir(parents=True, exist_ok=True)
     command = [FERRY, "train", "--map", study.map, "--seed", str(seed), "--episodes", str(study.episodes),
-               "--out", str(OUT / "one.safetensors"), "--sweeps", str(OUT / "sweeps"),
+               "--force", "--out", str(OUT / "one.safetensors"), "--sweeps", str(OUT / "sweeps"),
                *(word for setting in [*study.settings, *changes] for word in ("--set", setting))]
     environment = {"XDG_RUNTIME_DIR": "/tmp", **os.environ}
     done = subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True, env=environment)

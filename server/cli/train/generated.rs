@@ -1,13 +1,14 @@
 //! `ferry train --map generated`.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, ensure};
 
-use super::{Arguments, CHECKPOINT_PERIOD, describe, progress};
+use super::{Arguments, bar_of, describe, files, learn};
 use crate::learn::{
-    Curve, EXAMINATION_SEED, Marks, MazeLattice, RecipeName, Saving, SurveyRecipe, SurveyRun, drive, examine_surveys,
-    examine_teacher, revision,
+    Curve, EXAMINATION_SEED, Marks, MazeLattice, RecipeName, SurveyRecipe, SurveyRun, examine_surveys, examine_teacher,
+    revision,
 };
 use crate::map::{Map, MazeFamily};
 
@@ -25,6 +26,8 @@ pub fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     ensure!(arguments.rounds == 1, "--rounds: --map {MAP} trains one round; give --seed instead");
     let recipe: SurveyRecipe = crate::cli::with_changes(&SurveyRecipe::default(), &arguments.set)?;
     recipe.check().context("--set")?;
+    let out = &files::out(arguments);
+    files::check(arguments, out, &[(arguments.seed, out.clone())])?;
     let mazes = MazeLattice::generated(&TRAINED, 1, recipe.mazes)?;
     let tests: Vec<(&str, Vec<MazeLattice>)> = TESTED
         .into_iter()
@@ -32,16 +35,11 @@ pub fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         .collect::<anyhow::Result<_>>()?;
     let unseen = arguments.unseen.iter().map(|name| Ok((name.as_str(), vec![MazeLattice::of(&Map::open(name)?)])));
     let unseen: Vec<(&str, Vec<MazeLattice>)> = unseen.collect::<anyhow::Result<_>>()?;
-    if let Some(folder) = arguments.out.parent() {
-        std::fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
-    }
+    files::create_folder(out)?;
 
-    let (run, curve) = learn(arguments, &recipe, &mazes)?;
+    let (run, curve) = run(arguments, &recipe, out, &mazes)?;
     let maps = TRAINED.map(|family| format!("{} {} to {}", family.as_str(), 1, recipe.mazes.div_ceil(TRAINED.len())));
-    let out = &arguments.out;
     std::fs::write(out, run.policy(maps.into(), &revision())?).with_context(|| format!("{}", out.display()))?;
-    let data = out.with_extension("curve.csv");
-    std::fs::write(&data, curve.csv()).with_context(|| format!("{}", data.display()))?;
     println!(
         "seed {}      {} updates, {} steps, {} episodes in {:.1} min",
         run.seed,
@@ -59,28 +57,30 @@ pub fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         println!("  teacher   {name}: {}", describe(&taught.into_iter().sum::<Marks>()));
     }
     println!("policy      {}", out.display());
-    println!("curve       {}", data.display());
+    println!("curve       {}", out.with_extension("curve.csv").display());
     let figure = out.with_extension("curve.svg");
     std::fs::write(&figure, Curve::figure(&[curve])?).with_context(|| format!("{}", figure.display()))?;
     println!("figure      {}", figure.display());
     Ok(ExitCode::SUCCESS)
 }
 
-fn learn(arguments: &Arguments, recipe: &SurveyRecipe, mazes: &[MazeLattice]) -> anyhow::Result<(SurveyRun, Curve)> {
-    let checkpoint = arguments.out.with_extension("checkpoint");
-    let (mut run, mut curve) = match arguments.resume {
+fn run(
+    arguments: &Arguments,
+    recipe: &SurveyRecipe,
+    out: &Path,
+    mazes: &[MazeLattice],
+) -> anyhow::Result<(SurveyRun, Curve)> {
+    let (mut run, curve) = match arguments.resume {
         true => {
-            let (run, spent_s) = SurveyRun::read(&checkpoint, recipe, arguments.seed)?;
+            let (run, spent_s) = SurveyRun::read(&out.with_extension("checkpoint"), recipe, arguments.seed)?;
             (run, Curve::resumed(spent_s))
         }
         false => (SurveyRun::new(recipe.clone(), arguments.seed, mazes)?, Curve::default()),
     };
-    let bar = progress(recipe.updates, run.memory.updates)?;
-    let saving = Saving { checkpoint: &checkpoint, period: CHECKPOINT_PERIOD };
-    drive(&mut run, mazes, saving, &mut curve, &mut |run, _| {
+    let bar = bar_of(recipe.updates, run.memory.updates)?;
+    let curve = learn(&mut run, mazes, out, curve, &mut |run| {
         bar.set_position(run.memory.updates);
         bar.set_message(message(run));
-        true
     })?;
     bar.finish_and_clear();
     Ok((run, curve))
@@ -89,10 +89,10 @@ fn learn(arguments: &Arguments, recipe: &SurveyRecipe, mazes: &[MazeLattice]) ->
 fn message(run: &SurveyRun) -> String {
     let mut parts = Vec::new();
     if let Some(marks) = run.curve.iter().rev().find_map(|point| point.examined) {
-        parts.push(format!("{:.1} % examined", 100.0 * marks.success()));
+        parts.push(format!("{:.1} % examined, ", 100.0 * marks.success()));
     }
     if let Some(loss) = run.curve.last().and_then(|point| point.loss.mean()) {
-        parts.push(format!("loss {loss:.4}"));
+        parts.push(format!("loss {loss:.4}, "));
     }
-    parts.join(", ")
+    parts.concat()
 }

@@ -155,10 +155,10 @@ impl SurveyRun {
     pub fn read(path: &Path, recipe: &SurveyRecipe, seed: u64) -> Result<(Self, f64), TrainingError> {
         let (run, spent_s): (Self, f64) = checkpoint::read(path, VERSION)?;
         let refuse = |reason: &str| Err(CheckpointError::refused(path, reason).into());
-        match () {
-            () if run.recipe != *recipe => refuse("it has another recipe"),
-            () if run.seed != seed => refuse(&format!("its seed is {}, not {seed}", run.seed)),
-            () => Ok((run, spent_s)),
+        match checkpoint::differences(&run.recipe, recipe) {
+            Some(differences) => refuse(&differences),
+            None if run.seed != seed => refuse(&format!("its seed is {}, not {seed}", run.seed)),
+            None => Ok((run, spent_s)),
         }
     }
 }

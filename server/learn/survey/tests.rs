@@ -132,7 +132,8 @@ fn imitation_teaches_and_a_resumed_run_is_the_same() {
     assert_eq!(resumed.curve, whole.curve);
 
     let other = SurveyRecipe { batch: 17, ..recipe.clone() };
-    assert!(SurveyRun::read(&path, &other, 3).unwrap_err().to_string().contains("another recipe"));
+    let text = SurveyRun::read(&path, &other, 3).unwrap_err().to_string();
+    assert!(text.contains(&format!("batch is {} there and 17 now", recipe.batch)), "{text}");
     assert!(SurveyRun::read(&path, &recipe, 4).unwrap_err().to_string().contains("its seed is 3, not 4"));
 }
 

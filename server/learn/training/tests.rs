@@ -4,6 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 use crate::learn::examine::examine_by;
 use crate::learn::terrain::tests::two_rooms;
+use crate::policy::Architecture;
 
 /// A recipe whose runs take about a second.
 fn shrunk(recipe: Recipe) -> Recipe {
@@ -91,8 +92,14 @@ fn a_checkpoint_that_does_not_fit_is_refused_with_the_reason() {
     state.write(&path, 0.0).unwrap();
     assert!(State::read(&path, &recipe, 3, &terrains).is_ok());
     assert!(refusal(&recipe, 4, &terrains).contains("its seed is 3, not 4"));
-    let other = Recipe { n_step: 2, ..recipe.clone() };
-    assert!(refusal(&other, 3, &terrains).contains("it has another recipe"));
+    let architecture = Architecture { dueling: false, ..recipe.architecture };
+    let other = Recipe { n_step: 2, updates: 9_999, architecture, ..recipe.clone() };
+    let text = refusal(&other, 3, &terrains);
+    let updates = format!("updates is {} there and 9999 now", recipe.updates);
+    let all =
+        ["it has another recipe: ", "n_step is 1 there and 2 now", "architecture.dueling is true there and false now"];
+    assert!(all.iter().chain([&updates.as_str()]).all(|part| text.contains(part)), "{text}");
+    assert_eq!(text.matches(" there and ").count(), 3, "{text}");
     let two = [two_rooms(), two_rooms()];
     assert!(refusal(&recipe, 3, &two).contains(r#"its maps are [("rooms", 26)]"#));
 

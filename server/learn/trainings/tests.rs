@@ -117,6 +117,8 @@ fn a_cancelled_training_leaves_nothing_and_frees_its_name() {
     assert_eq!(second.status().stage, TrainingStage::Cancelled);
     wait(&first, |status| !status.points.is_empty());
     assert!(first.cancel());
+    // A weaker wish does not revoke it.
+    assert!(!first.pause());
     wait(&first, |status| status.stage == TrainingStage::Cancelled);
     assert_eq!(std::fs::read_dir(folder.path().join("trainings")).unwrap().count(), 0);
     assert!(laboratory.catalog.policies.added().is_empty());

@@ -33,14 +33,14 @@ const EXAMINED_EPISODES: u32 = 1000;
 /// Largest number of points of the curve that a policy keeps.
 const ORIGIN_POINTS: usize = 50;
 
-/// What a running training shall do at its next point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What a running training shall do at its next point. A later wish is stronger: a weaker one does not revoke it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Wish {
     GoOn,
     Pause,
-    Cancel,
     /// The server stops; the next one goes on.
     Suspend,
+    Cancel,
 }
 
 /// How a policy was trained.
@@ -140,8 +140,8 @@ impl Training {
                 true
             }
             TrainingStage::Images | TrainingStage::Learning => {
-                status.wish = Wish::Pause;
-                true
+                status.wish = status.wish.max(Wish::Pause);
+                status.wish != Wish::Cancel
             }
             _ => false,
         }
@@ -360,6 +360,7 @@ impl Job for Training {
     }
 
     fn interrupt(&self) {
-        self.lock().wish = Wish::Suspend;
+        let mut status = self.lock();
+        status.wish = status.wish.max(Wish::Suspend);
     }
 }

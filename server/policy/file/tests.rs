@@ -192,6 +192,33 @@ fn refuses_a_manifest_that_does_not_fit_and_gives_the_reason() {
 }
 
 #[test]
+fn refuses_a_number_of_the_manifest_by_its_field() {
+    let fields = ["version", "step_m", "clearance_m", "seed", "updates"];
+    for (field, number) in fields.iter().flat_map(|field| ["1e300", "-1", "1e999"].map(|number| (field, number))) {
+        let mut manifest = serde_json::to_value(plain()).unwrap();
+        manifest[field] = "HERE".into();
+        let found = refusal(&file(&manifest.to_string().replace("\"HERE\"", number), &kept()));
+        assert!(found.starts_with(&format!("policy: manifest: {field}")), "{field} = {number}: {found}");
+    }
+    let twice = format!("{0} {0}", serde_json::to_string(&plain()).unwrap());
+    assert!(refusal(&file(&twice, &kept())).contains("trailing characters"));
+}
+
+#[test]
+fn names_the_format_of_a_file_of_another_program() {
+    for (bytes, kind) in [
+        (&b"\x08\x07\x12\x07pytorch\x1a\x052.0.0"[..], "an ONNX model"),
+        (b"\x08\x0a\x3a\x80\x02graph", "an ONNX model"),
+        (b"PK\x03\x04\x00\x00\x08\x08archive/data.pkl", "a zip archive"),
+        (b"\x80\x02\x8a\nl\xfc\x9cF\xf9 j\xa8P\x19.", "a Python pickle"),
+        (b"\x89HDF\r\n\x1a\n", "an HDF5 file"),
+    ] {
+        let found = refusal(bytes);
+        assert!(found.contains(kind) && found.contains("`ferry train`"), "{found}");
+    }
+}
+
+#[test]
 fn refuses_a_header_with_a_large_claimed_size_before_parsing() {
     let mut bytes = file_of(&plain(), &kept());
     for claimed in [MAX_HEADER_BYTES + 1, 100 << 30, u64::MAX] {
