@@ -44,7 +44,7 @@ fn frame(x_m: f64, y_m: f64) -> CameraFrame {
     };
     let rgba = (0..SIZE_PX * SIZE_PX).flat_map(pixel).collect();
     let picture = Picture { width_px: SIZE_PX, height_px: SIZE_PX, rgba };
-    CameraFrame { picture, tick: 0, pinhole: CameraMount::default().over(Point2::new(x_m, y_m)) }
+    CameraFrame { picture, tick: 0, pinhole: CameraMount::default().over(Point2::new(x_m, y_m), 0.0) }
 }
 
 /// Times each step from the frame to the rectangles and to the network's observation.

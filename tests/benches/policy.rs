@@ -32,6 +32,7 @@ fn frames(arena: &Arena, gpu: &std::sync::Arc<Gpu>) -> Vec<(Point2<f64>, CameraF
         let subject = Subject {
             tick: 0,
             tool_m: [tool.x, tool.y, 0.1],
+            turn_rad: 0.0,
             bead_m: [tool.x, tool.y, 0.0025],
             goal_m: None,
             link_frames: None,
