@@ -66,6 +66,7 @@ struct Joint {
     torque_n_m: f64,
 }
 
+#[derive(Default)]
 struct Inertia {
     mass_kg: f64,
     center_m: Vector3<f64>,

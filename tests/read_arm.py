@@ -14,6 +14,7 @@ import numpy as np
 
 
 def urdf(path: str, poses: list[list[float]]) -> dict:
+    import mujoco
     import yourdfpy
 
     model = yourdfpy.URDF.load(path, load_meshes=False, build_collision_scene_graph=True)
@@ -21,7 +22,12 @@ def urdf(path: str, poses: list[list[float]]) -> dict:
     for joints in poses:
         model.update_cfg(joints)
         frames.append([model.get_transform(frame, "base").ravel().tolist() for frame in ("tool0", "magnet")])
-    return {"joints": model.actuated_joint_names, "valid": model.validate(), "frames": frames}
+    return {
+        "joints": model.actuated_joint_names,
+        "valid": model.validate(),
+        "frames": frames,
+        "mass_kg": float(mujoco.MjModel.from_xml_path(path).body_mass.sum()),
+    }
 
 
 def mjcf(path: str, poses: list[list[float]]) -> dict:

@@ -1,7 +1,7 @@
 //! The arm as a URDF (<http://wiki.ros.org/urdf/XML>).
 
 use super::xml::{Element, rgba};
-use super::{Form, Link, Shape, links, roll_pitch_yaw};
+use super::{Form, Inertia, Link, Shape, links, roll_pitch_yaw};
 use crate::geometry::Isometry3;
 use crate::robot::ur5::{JOINT_LIMIT_RAD, JOINT_SPEED_LIMIT_RAD_S};
 use crate::scenario::Parameters;
@@ -21,21 +21,22 @@ fn origin(pose: &Isometry3<f64>) -> Element {
 }
 
 fn link(link: &Link) -> Element {
-    let inertial = link.inertia.as_ref().map(|inertia| {
-        let [x, y, z] = inertia.moments_kg_m2.into();
-        let mut matrix = Element::new("inertia");
-        for (name, value) in [("ixx", x), ("ixy", 0.0), ("ixz", 0.0), ("iyy", y), ("iyz", 0.0), ("izz", z)] {
-            matrix = matrix.numbers(name, &[value]);
-        }
-        Element::new("inertial")
-            .child(origin(&Isometry3::from_parts(inertia.center_m.into(), nalgebra::UnitQuaternion::identity())))
-            .child(Element::new("mass").numbers("value", &[inertia.mass_kg]))
-            .child(matrix)
-    });
+    // PyBullet and MuJoCo give a link without it a mass of their own.
+    let without = Inertia::default();
+    let inertia = link.inertia.as_ref().unwrap_or(&without);
+    let [x, y, z] = inertia.moments_kg_m2.into();
+    let mut matrix = Element::new("inertia");
+    for (name, value) in [("ixx", x), ("ixy", 0.0), ("ixz", 0.0), ("iyy", y), ("iyz", 0.0), ("izz", z)] {
+        matrix = matrix.numbers(name, &[value]);
+    }
+    let inertial = Element::new("inertial")
+        .child(origin(&Isometry3::from_parts(inertia.center_m.into(), nalgebra::UnitQuaternion::identity())))
+        .child(Element::new("mass").numbers("value", &[inertia.mass_kg]))
+        .child(matrix);
     let collisions = link.shapes.iter().filter(|shape| shape.collides).map(|shape| solid("collision", shape));
     Element::new("link")
         .with("name", link.name)
-        .children(inertial)
+        .child(inertial)
         .children(link.shapes.iter().map(visual))
         .children(collisions)
 }

@@ -222,7 +222,11 @@ impl Library {
     pub fn remove(&self, name: &str) -> Result<(), LibraryError> {
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
         let index = Self::position(&added, name)?;
-        std::fs::remove_file(self.path(name))?;
+        // It may be gone already.
+        match std::fs::remove_file(self.path(name)) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error.into()),
+            _ => {}
+        }
         let _ = std::fs::remove_file(self.path(name).with_extension("json"));
         added.remove(index);
         drop(added);
@@ -292,6 +296,11 @@ mod tests {
         assert!(again.find(&full).is_err());
         assert!(Library::in_folder(folder.path().join("policies"), || ()).added().is_empty());
         assert_eq!(std::fs::read_dir(folder.path().join("policies")).unwrap().count(), 0);
+        // Also if its file is gone.
+        library.add("mine", &file(), None).unwrap();
+        std::fs::remove_dir_all(folder.path().join("policies")).unwrap();
+        library.remove("mine").unwrap();
+        assert!(library.find(&reference("mine")).is_err());
     }
 
     #[test]

@@ -155,7 +155,8 @@ impl Archive {
     }
 
     fn size(&self, id: &str, ending: &str) -> Option<u64> {
-        std::fs::metadata(self.path(id, ending)).ok().map(|data| data.len())
+        // What a link points to is no recording.
+        std::fs::symlink_metadata(self.path(id, ending)).ok().filter(|data| data.is_file()).map(|data| data.len())
     }
 
     /// Gives a recording a title, or removes it.
@@ -279,6 +280,16 @@ mod tests {
 
     fn ids(archive: &Archive) -> Vec<String> {
         archive.list().unwrap().into_iter().map(|listed| listed.id).collect()
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_no_recording() {
+        let folder = tempfile::tempdir().unwrap();
+        put(folder.path(), "mine", 10);
+        std::os::unix::fs::symlink("/etc/hostname", folder.path().join("link.rrd")).unwrap();
+        let archive = Archive::new(folder.path().to_owned(), Retention::default());
+        assert_eq!((ids(&archive), archive.file("link.rrd").unwrap()), (vec!["mine".to_owned()], None));
     }
 
     #[test]

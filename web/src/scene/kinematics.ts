@@ -35,6 +35,6 @@ export function linkFrames(joints_rad: readonly number[], frames: readonly Matri
 /** How far a tool that points down is turned about the vertical, from the pose of its flange. */
 export function toolTurn(flange: Matrix4): number {
   // Not turned, the flange's x axis points along −y of the base.
-  const [x = 0, y = 0] = flange.elements;
+  const [x, y] = flange.elements;
   return Math.atan2(x, -y);
 }
