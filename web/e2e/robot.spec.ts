@@ -48,9 +48,11 @@ test('the page shows a robot client, what it does and what was refused, and take
   expect(await violations(lab.page)).toEqual([]);
 
   // What is not understood is refused, and named.
-  script.write('set_digital_out(0, True)\n');
+  script.write('get_inverse_kin(p[0,0,0,0,0,0])\n');
   const refused = lab.page.getByRole('list', { name: 'Refused commands' });
-  await expect(refused).toContainText('a program: line 1: "set_digital_out(0, True)" is not one');
+  await expect(refused).toContainText(
+    'a program: line 1: "get_inverse_kin(p[0,0,0,0,0,0])" is not one',
+  );
 
   // At the edge of the workspace the arm stops, until the dashboard frees it.
   script.write('movel(p[0,-0.35,0.05,2.2214,-2.2214,0], a=0.5, v=0.2)\n');
