@@ -348,18 +348,21 @@ fn refuses_drawings_with_excessive_cost() {
     assert!(draw(&path(&hatch(500, 200.0))).is_ok());
 }
 
-/// It took seven seconds. Found by fuzzing.
+/// Found by fuzzing: a coarser precision of the union left a thousand slivers of these.
 #[test]
-fn strokes_that_nearly_coincide_are_united_at_once() {
-    let begun = std::time::Instant::now();
-    let ends = ["t100 5s5 5 5 5", "t5 5s5 5 5 5", "t5 5s7e1 7e1 7e1 7e1"];
-    let stroke = |end| format!("<path d=\"m5 5h5v5q5 5 5 5{end}\" transform=\"scale(1.5 -.5)\"/>");
-    let svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-2000 -2000 4000 4000\"><g style=\"stroke: red; \
-         stroke-linecap: round; stroke-width: 4px\" transform=\"scale(1.5 -.5)\">{}</g></svg>",
-        ends.map(stroke).concat()
-    );
+fn strokes_that_nearly_coincide_leave_no_slivers() {
+    let paths = ["m5 5h5v33.3q5 5 -200 5t250 33.3s-.5 100 100 5", "m0 0h0v5q5 5 5 5t5 5s5 5 100 1.5"];
+    let others = ["m0 0h0v7e1q7e1 7e1 7e1 400t7e1 7e1s7e1 5 5 5", "m5 33.3h5v5q-200 5 250 33.3t-.5 100s100 5 5 5"];
+    let stroke = |d| {
+        format!(
+            "<path d=\"{d}\" fill-rule=\"evenodd\" stroke=\"#123\" stroke-linecap=\"square\" transform=\"scale(1.5 -.5)\"/>"
+        )
+    };
+    let ellipse = "<ellipse cx=\"70\" cy=\"5\" rx=\"100\" ry=\"5\" stroke=\"#123\" transform=\"scale(1.5 -.5)\"/>";
+    let body = [paths.map(stroke).concat(), ellipse.to_owned(), others.map(stroke).concat()].concat();
+    let view = "-2000 -2000 4000 4000";
+    let svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{view}\">{body}</svg>");
     let map = Map::from_svg("case", &svg).unwrap();
     assert_eq!(map.walls().len(), 1);
-    assert!(begun.elapsed().as_secs_f64() < 1.0, "{:?}", begun.elapsed());
+    assert!(map.walls()[0].holes.len() < 20, "{}", map.walls()[0].holes.len());
 }
