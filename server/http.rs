@@ -3,6 +3,7 @@
 mod accept;
 mod access;
 mod assets;
+mod base;
 mod body;
 #[cfg(test)]
 mod fault_tests;
@@ -43,6 +44,7 @@ use crate::ur::{Robot, Twin};
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 pub use assets::{EmbeddedFile, Page};
+pub use base::{BasePath, BasePathError};
 use body::Bodies;
 use metrics::Counters;
 use problem::Problem;
@@ -102,6 +104,8 @@ pub struct Settings {
     pub twin: Option<Arc<Twin>>,
     /// What browsers load.
     pub page: Page,
+    /// Path below which a proxy has the server.
+    pub base: BasePath,
 }
 
 impl Settings {
@@ -116,12 +120,15 @@ impl Settings {
             start_over: false,
             twin: None,
             page: Page::default(),
+            base: BasePath::default(),
         }
     }
 }
 
 /// State shared by all requests.
 pub struct Server {
+    /// Of every address.
+    base: BasePath,
     page: Page,
     gpu: Arc<Gpu>,
     access: Access,
@@ -146,8 +153,10 @@ pub struct Server {
     workers: Arc<Semaphore>,
     /// Permit for taking the images of a whole map.
     painter: Arc<Semaphore>,
-    /// Permit for running challenges.
+    /// Permit for running attempts at challenges.
     judge: Arc<Semaphore>,
+    /// Permit for the controllers' runs on challenges.
+    ghosts: Arc<Semaphore>,
     /// Permits for camera streams.
     camera_streams: Arc<Semaphore>,
     bodies: Bodies,
@@ -167,7 +176,7 @@ impl Server {
         access: Access,
         stopping: watch::Receiver<bool>,
     ) -> Result<Arc<Self>, ServeError> {
-        let Settings { data, retention, sessions, park_after, opening, start_over, twin, page } = settings;
+        let Settings { data, retention, sessions, park_after, opening, start_over, twin, page, base } = settings;
         let recordings = Archive::new(data.join("recordings"), retention);
         let maps = Maps::in_folder(data.join("maps"), opening.map.clone());
         let settings = SessionSettings { most: sessions, park_after, opening };
@@ -187,7 +196,8 @@ impl Server {
             recoveries: Recoveries::new(jobs.clone()),
             trainings: Trainings::in_folder(data.join("trainings"), sweeps.clone(), jobs.clone(), catalog.clone()),
             jobs,
-            page,
+            page: page.below(&base),
+            base,
             gpu,
             access,
             counters: Arc::default(),
@@ -199,6 +209,7 @@ impl Server {
             workers: Arc::new(Semaphore::new(WORKERS)),
             painter: Arc::new(Semaphore::new(1)),
             judge: Arc::new(Semaphore::new(1)),
+            ghosts: Arc::new(Semaphore::new(1)),
             camera_streams: Arc::new(Semaphore::new(CAMERA_STREAMS)),
             bodies: Bodies::default(),
             large_seats: Arc::new(Semaphore::new(live::LARGE_SEATS)),
@@ -254,7 +265,8 @@ impl Server {
 /// All routes, behind the access check.
 pub fn router(server: Arc<Server>) -> Router {
     let guard = axum::middleware::from_fn_with_state(server.clone(), access::guard);
-    routes::served().layer(guard).with_state(server)
+    let base = server.base.clone();
+    base.around(routes::served().layer(guard).with_state(server))
 }
 
 /// Opens the listener; the error suggests a remedy.

@@ -37,7 +37,8 @@ pub const MAX_SVG_BYTES: usize = 1 << 20;
 ///
 /// 2: reads CSS and invisible shapes as browsers do, and absolute lengths as millimetres of the table.
 /// 3: draws a stroke whose first point is given twice as browsers do.
-pub const READER: u32 = 3;
+/// 4: leaves out what is filled between a line and its way back.
+pub const READER: u32 = 4;
 /// The reader of drawings with which none is noted.
 pub const fn first_reader() -> u32 {
     1
@@ -88,13 +89,11 @@ impl Map {
         Self::from_svg(name, text)
     }
 
-    /// A shipped map by name, or a file: its path ends in `.svg` or `.svgz`, or is that of a file.
+    /// A shipped map by name, or a file by its path. No name has a dot or a slash.
     pub fn open(name_or_path: &str) -> Result<Self, MapError> {
         let path = std::path::Path::new(name_or_path);
-        let is_drawing =
-            path.extension().is_some_and(|one| ["svg", "svgz"].iter().any(|name| one.eq_ignore_ascii_case(name)));
         let shipped = Self::shipped(name_or_path);
-        if shipped.is_ok() || !(is_drawing || path.is_file()) {
+        if shipped.is_ok() || !(name_or_path.contains(['.', '/']) || path.is_file()) {
             return shipped;
         }
         if path.is_file() {

@@ -57,6 +57,12 @@ pub enum RecordingError {
         /// Required space.
         min_mb: u64,
     },
+    /// There are as many recordings in progress as may be kept.
+    #[error("recording: {in_progress} recordings are in progress, and the limit is {max} (--keep)")]
+    Parts { in_progress: usize, max: usize },
+    /// The recordings in progress alone are larger than all may be.
+    #[error("recording: the recordings in progress have {mb} MB, and the limit is {max_mb} MB (--keep-mb)")]
+    Quota { mb: u64, max_mb: u64 },
     /// A file that is being written is not in its folder any more.
     #[error("recording: {path} was removed", path = path.display())]
     Gone { path: PathBuf },
@@ -88,7 +94,7 @@ fn trouble(error: impl std::fmt::Display) -> RecordingError {
 pub struct Options {
     /// Whether the trial waits for a slow disk. Otherwise ticks are lost; they are counted and shown.
     pub waits: bool,
-    /// Length of a part.
+    /// Length of a part. It ends sooner if the archive is small.
     pub part: Duration,
     /// Smallest interval between images.
     pub image_every: Duration,

@@ -41,6 +41,8 @@ async fn play(browser: &mut Browser, challenge: &Challenge) -> Value {
 async fn an_attempt_that_was_played_counts_once_and_a_changed_one_does_not() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
+    let seat_of = |hello: Value| hello["seat"].as_str().unwrap().to_owned();
+    let seat = seat_of(browser.until("a greeting", |m| m["type"] == "hello").await);
     let challenge = Challenge::of(NAME.parse().unwrap()).unwrap();
     let post = |name: &str, body: Value| {
         let (path, body) = (format!("/api/challenges/{name}/attempts"), body.to_string());
@@ -55,7 +57,8 @@ async fn an_attempt_that_was_played_counts_once_and_a_changed_one_does_not() {
     let attempt = report["attempt"].clone();
     assert_eq!(attempt["score"]["walls"], last["attempt"]["walls"]);
     assert!(report["remaining_m"].as_f64().unwrap() < 0.03, "{report}");
-    let query = |player: &str, attempt: &Value| json!({"session": "main", "player": player, "attempt": attempt});
+    let query =
+        |player: &str, attempt: &Value| json!({"session": "main", "seat": seat, "player": player, "attempt": attempt});
 
     let edited = |pointer: &str, value: Value| {
         let mut edited = attempt.clone();
@@ -77,7 +80,29 @@ async fn an_attempt_that_was_played_counts_once_and_a_changed_one_does_not() {
     assert_eq!((status, &problem["code"]), (422, &json!("other_challenge")), "{problem}");
     let (status, problem) = post(NAME, query("", &attempt)).await;
     assert_eq!((status, &problem["field"]), (422, &json!("player")), "{problem}");
-    let elsewhere = json!({"session": "other", "player": "Eve", "attempt": attempt});
+    for name in ["A\u{200b}da", "\u{202e}adA", "\u{2066}Ada"] {
+        let (status, problem) = post(NAME, query(name, &attempt)).await;
+        assert_eq!((status, &problem["field"]), (422, &json!("player")), "{problem}");
+    }
+    // Another browser cannot post it, also when it has control.
+    let mut eve = lab.browser().await;
+    let other = seat_of(eve.until("a greeting", |m| m["type"] == "hello").await);
+    assert_ne!(other, seat);
+    browser.send(json!({"type": "release_control"})).await;
+    eve.send(json!({"type": "take_control"})).await;
+    eve.until("control", |m| m["type"] == "hello" && m["role"] == "operator").await;
+    for key in [json!(other), json!("")] {
+        let mut forged = query("Eve", &attempt);
+        forged["seat"] = key;
+        let (status, problem) = post(NAME, forged).await;
+        assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("other_player"), &json!("seat")));
+    }
+    drop(eve);
+    // Connected again, the player has the same seat.
+    drop(browser);
+    let mut browser = Browser::with(lab.address, &format!("?seat={seat}")).await;
+    assert_eq!(seat_of(browser.until("a greeting", |m| m["type"] == "hello" && m["role"] == "operator").await), seat);
+    let elsewhere = json!({"session": "other", "seat": seat, "player": "Eve", "attempt": attempt});
     let (status, problem) = post(NAME, elsewhere).await;
     assert_eq!((status, &problem["field"]), (422, &json!("session")), "{problem}");
     assert!(!lab.data.path().join("challenges").exists(), "a refused attempt leaves nothing");

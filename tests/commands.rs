@@ -224,6 +224,8 @@ fn errors_are_one_sentence_with_a_remedy() {
 
     let message = failure(ferry(&["evaluate", "--map", "nowhere"]).output().unwrap());
     assert!(message.contains("nowhere") && message.contains("posts"), "{message}");
+    let message = failure(ferry(&["map", "nowhere.png"]).output().unwrap());
+    assert!(message.contains("nowhere.png: No such file"), "{message}");
 }
 
 #[test]

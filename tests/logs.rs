@@ -184,6 +184,37 @@ fn parts_have_no_gap_and_each_replays_alone() {
     assert_eq!(archive.list().unwrap().iter().filter(|listed| listed.live).count(), 0);
 }
 
+fn bytes_in(folder: &Path) -> u64 {
+    // A file may be deleted meanwhile.
+    std::fs::read_dir(folder).unwrap().flatten().filter_map(|file| file.metadata().ok()).map(|data| data.len()).sum()
+}
+
+#[test]
+fn the_largest_size_of_an_archive_holds_while_a_session_is_recorded() {
+    const MAX_BYTES: u64 = 4 << 20;
+    let folder = tempfile::tempdir().unwrap();
+    let archive = Archive::new(folder.path().to_owned(), Retention { max_bytes: MAX_BYTES, max_parts: 200 });
+    let options = Options { image_every: Duration::ZERO, ..Options::LIVE };
+    let recorder = Recorder::in_archive(&archive, "main", options).unwrap();
+    let scenario = Scenario::idle("posts", 1);
+    let session =
+        Session::start("main", scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
+    let runtime = clocked();
+    let (mut most, mut parts) = (0, std::collections::BTreeSet::new());
+    while parts.len() < 8 {
+        runtime.block_on(session.send(Command::Step(50))).unwrap();
+        std::thread::sleep(Duration::from_millis(50));
+        most = most.max(bytes_in(folder.path()));
+        parts.extend(archive.list().unwrap().into_iter().map(|listed| listed.id));
+        assert_eq!(session.watch().borrow().recording, "recording");
+    }
+    drop(session);
+    // What is written between two checks.
+    let more = MAX_BYTES / 10;
+    assert!((MAX_BYTES / 2..MAX_BYTES + more).contains(&most), "{most} bytes");
+    assert!(bytes_in(folder.path()) < MAX_BYTES + more);
+}
+
 #[test]
 fn without_room_a_recording_does_not_begin_and_says_why() {
     let folder = tempfile::tempdir().unwrap();

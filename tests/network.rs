@@ -197,3 +197,28 @@ async fn a_flood_of_messages_is_delayed_and_others_are_served() {
     drop(flood.await.unwrap());
     lab.close().await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn below_a_path_addresses_work_with_it_and_without() {
+    let lab = Laboratory::open_with(gpu(), None, |settings| settings.base = "/ferry".parse().unwrap()).await;
+    let address = lab.address;
+    let asked = tokio::task::spawn_blocking(move || {
+        let ask = |line: &str, headers: &str| exchange(address, head(address, line, headers).as_bytes());
+        for page in ["/ferry", "/ferry/", "/ferry/s/anna", "/", "/s/anna", "/ferry/viewer/"] {
+            let (status, text) = ask(&format!("GET {page}"), "");
+            assert_eq!(status, 200, "{page}: {text}");
+            assert!(text.contains("=\"/ferry/assets/") && !text.contains("=\"/assets/"), "{page}: {text}");
+        }
+        let (status, text) = ask("POST /ferry/api/sessions", "Content-Length: 2\r\n\r\n{}");
+        assert_eq!(status, 201, "{text}");
+        assert!(text.to_lowercase().contains("\nlocation: /ferry/api/sessions/"), "{text}");
+        for none in ["/ferryman/", "/api/ferry/"] {
+            assert_eq!(ask(&format!("GET {none}"), "").0, 404, "{none}");
+        }
+    });
+    asked.await.unwrap();
+    let (mut socket, _) =
+        tokio_tungstenite::connect_async(format!("ws://{address}/ferry/api/sessions/main/live")).await.unwrap();
+    assert!(socket.next().await.unwrap().unwrap().is_text());
+    lab.close().await;
+}

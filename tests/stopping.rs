@@ -1,5 +1,7 @@
 //! SIGTERM: sessions end, recordings are written and browsers are informed soon.
 
+mod states;
+
 use std::io::Write;
 use std::net::TcpStream;
 use std::path::Path;
@@ -20,8 +22,12 @@ use crate::support::{Browser, Ferry, exchange, ferry, files, tool};
 const WITHIN: Duration = Duration::from_secs(10);
 
 fn serve(data: &Path, change: impl FnOnce(&mut Command)) -> Ferry {
-    let mut command = ferry(&["serve", "--bind", "127.0.0.1:0", "--data"]);
-    command.arg(data);
+    served(data, &["serve"], change)
+}
+
+fn served(data: &Path, how: &[&str], change: impl FnOnce(&mut Command)) -> Ferry {
+    let mut command = ferry(how);
+    command.args(["--bind", "127.0.0.1:0", "--data"]).arg(data);
     // A pipe that is not read would fill up.
     command.stderr(std::fs::File::create(data.join("log")).unwrap());
     change(&mut command);
@@ -89,6 +95,7 @@ async fn whatever_goes_on_it_ends_soon_and_files_are_whole() {
     let folder = data.path().to_owned();
     let (took, log) = tokio::task::spawn_blocking(move || terminate(child, &folder)).await.unwrap();
     assert!(took < WITHIN, "it took {took:?}\n{log}");
+    assert!(!log.contains("ERROR"), "{log}");
     assert_eq!(closed.await.unwrap(), Some(1001));
     let recordings = data.path().join("recordings");
     let parts = files(&recordings, "rrd");

@@ -63,6 +63,10 @@ const opensSessions = (): Plugin => ({
 });
 
 export default defineConfig({
+  experimental: {
+    // Scripts and styles find each other from where they lie: the server may be at any path. It corrects its own pages.
+    renderBuiltUrl: (name, { hostType }) => (hostType === 'html' ? `/${name}` : { relative: true }),
+  },
   plugins: [solid(), anyLanguage(), compressed(), opensSessions()],
   // Libraries are bundled beforehand for `make dev` and for tests of components.
   optimizeDeps: { rolldownOptions: { plugins: [anyLanguage()] } },

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use icu_properties::props::{DefaultIgnorableCodePoint, GeneralCategory};
+use icu_properties::{CodePointMapData, CodePointSetData};
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -52,7 +54,9 @@ pub struct Entry {
 /// Why an attempt is not kept.
 #[derive(Debug, thiserror::Error)]
 pub enum BoardError {
-    #[error("{field} is {value:?}: it must have 1 to {NAME_MOST} characters, and no control characters")]
+    #[error(
+        "{field} is {value:?}: it must have 1 to {NAME_MOST} characters, none of which is a control character, hidden, or turns the others"
+    )]
     Name { field: &'static str, value: String },
     #[error("attempt.log: this log is on the board already")]
     Again,
@@ -168,12 +172,24 @@ impl Signature {
         let names = [("player", Some(&self.player)), ("class", self.class.as_ref())];
         for (field, name) in names.into_iter().filter_map(|(field, name)| Some((field, name?))) {
             let count = name.chars().count();
-            if !(1..=NAME_MOST).contains(&count) || name.trim() != name || name.chars().any(char::is_control) {
+            if !(1..=NAME_MOST).contains(&count) || name.trim() != name || name.chars().any(is_hidden) {
                 return Err(BoardError::Name { field, value: name.chars().take(2 * NAME_MOST).collect() });
             }
         }
         Ok(())
     }
+}
+
+/// Whether a letter is not drawn, or turns the writing, so that a name looks like another one. Joiners stay: some writings
+/// and emoji need them, and the page shows them where they are not needed.
+fn is_hidden(letter: char) -> bool {
+    use GeneralCategory::{Control, Format, LineSeparator, ParagraphSeparator, PrivateUse};
+    let category = CodePointMapData::<GeneralCategory>::new().get(letter);
+    let is_joiner = matches!(letter, '\u{200c}' | '\u{200d}' | '\u{fe0f}');
+    !is_joiner
+        && (matches!(category, Control | Format | LineSeparator | ParagraphSeparator | PrivateUse)
+            || CodePointSetData::new::<DefaultIgnorableCodePoint>().contains(letter)
+            || letter == '\u{2800}')
 }
 
 impl Entry {

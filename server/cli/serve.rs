@@ -38,6 +38,9 @@ pub struct Arguments {
     /// repeated
     #[arg(long, value_name = "URL")]
     origin: Vec<http::Origin>,
+    /// Path below which a proxy has this server, such as /ferry
+    #[arg(long, value_name = "PATH", default_value = "/")]
+    base_path: http::BasePath,
     /// Largest number of simultaneous sessions
     #[arg(long, value_name = "COUNT", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=256))]
     sessions: u16,
@@ -193,6 +196,7 @@ async fn serve(arguments: &Arguments, page: Page, twin: Option<Arc<Twin>>) -> an
         start_over: arguments.scenario.is_some(),
         twin: twin.clone(),
         page,
+        base: arguments.base_path.clone(),
     };
     let server = http::Server::new(gpu, settings, access, stopping.clone())?;
     if let Some(model) = model {

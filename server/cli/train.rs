@@ -170,7 +170,7 @@ fn learn<R: Run>(
     let mut written = write(&curve);
     if written.is_ok() {
         let saving = Saving { checkpoint: &out.with_extension("checkpoint"), period: CHECKPOINT_PERIOD };
-        drive(run, worlds, saving, &mut curve, &mut |run, curve| {
+        drive(run, worlds, saving, &mut curve, &|| true, &mut |run, curve| {
             watch(run);
             written = write(curve);
             written.is_ok()

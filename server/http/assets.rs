@@ -11,6 +11,7 @@ use axum::response::{IntoResponse, Response};
 use xxhash_rust::xxh3::xxh3_64;
 
 use super::Server;
+use super::base::BasePath;
 use super::problem::Problem;
 use super::sessions::{DEMO, MAIN};
 use super::site::comes_from_another_site;
@@ -29,6 +30,7 @@ pub type EmbeddedFile = (&'static str, [Option<&'static [u8]>; 3]);
 #[derive(Clone, Default)]
 pub struct Page(Arc<BTreeMap<&'static str, File>>);
 
+#[derive(Clone)]
 struct File {
     contents: [Option<&'static [u8]>; 3],
     /// Weak, because all encodings share it.
@@ -58,6 +60,23 @@ impl Page {
     /// A page of these files.
     pub fn new(files: &[EmbeddedFile]) -> Self {
         Self(Arc::new(files.iter().map(|&(name, contents)| (name, File::new(contents))).collect()))
+    }
+
+    /// The page with the addresses that it has below a path.
+    pub(super) fn below(self, base: &BasePath) -> Self {
+        if *base == BasePath::default() {
+            return self;
+        }
+        let corrected = |file: &File| {
+            let text = base.correct(&String::from_utf8_lossy(&file.plain()));
+            let tag = format!("W/\"{:016x}\"", xxh3_64(text.as_bytes()));
+            File { contents: [None; 3], tag, unpacked: OnceLock::from(Bytes::from(text)) }
+        };
+        let files = self.0.iter().map(|(&name, file)| {
+            let file = if name.ends_with(".html") { corrected(file) } else { file.clone() };
+            (name, file)
+        });
+        Self(Arc::new(files.collect()))
     }
 
     /// A file, in the best encoding that the client accepts.

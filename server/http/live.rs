@@ -14,16 +14,19 @@ use axum::http::StatusCode;
 use axum::response::Response;
 use futures_util::StreamExt;
 use futures_util::stream::FuturesUnordered;
+use serde::Deserialize;
 use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::{oneshot, watch};
 use tokio::time::Instant;
+use utoipa::IntoParams;
 
 use self::hand::Hand;
 use self::hub::json;
 pub use self::hub::{CameraWatch, Encoded, Hub};
 use self::seats::Seats;
 use super::Server;
-use super::path::{Path, SessionPath};
+use super::access::Token;
+use super::path::{Path, Query, SessionPath};
 use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
 use super::socket::{Incoming, Limits, Socket, Upgrade};
@@ -38,21 +41,36 @@ const SMALL: Limits = Limits { message_bytes: 64 << 10, ..LIMITS };
 /// Browsers that may send test cases.
 pub const LARGE_SEATS: usize = 8;
 
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct LiveQuery {
+    /// `seat` of the `hello` that this browser got when it connected before. The attempt at a challenge that it began
+    /// stays its own.
+    seat: Option<String>,
+}
+
 /// The WebSocket of a session.
 ///
 /// Text frames are `ClientMessage` from the browser and `ServerMessage` from the server, JSON both. Binary frames carry
 /// pictures: one byte 1 (the camera's, a JPEG file) or 2 (the observation, 2 × 84 × 84 bytes), three bytes of zero, the
 /// tick as u32 little-endian, then the payload.
-#[utoipa::path(get, path = "/api/sessions/{id}/live", tag = "sessions", params(SessionPath),
+#[utoipa::path(get, path = "/api/sessions/{id}/live", tag = "sessions", params(SessionPath, LiveQuery),
     responses((status = 101, description = "The connection is a WebSocket from here on."), Malformed, NotFound, NotUpgraded, Unavailable))]
 pub async fn live(
     State(server): State<Arc<Server>>,
     Path(SessionPath { id }): Path<SessionPath>,
+    Query(LiveQuery { seat }): Query<LiveQuery>,
     upgrade: Result<Upgrade, Problem>,
 ) -> Result<Response, Problem> {
     let hub = server.sessions.find(&id).ok_or_else(|| Problem::not_found("session", &id))?;
     let upgrade = upgrade?;
-    let seat = Seat::take(&hub).ok_or_else(|| {
+    let key = match seat {
+        Some(key) if key.parse::<Token>().is_ok() => key,
+        Some(_) => return Err(refused_seat()),
+        None => Token::generate().map_err(Problem::internal)?,
+    };
+    let seat = Seat::take(&hub, key).ok_or_else(|| {
         let detail = format!("session {id:?} has {} browsers already", hub.viewers());
         Problem::new(StatusCode::SERVICE_UNAVAILABLE, "too_many_viewers", detail)
     })?;
@@ -66,15 +84,22 @@ pub async fn live(
     }))
 }
 
+fn refused_seat() -> Problem {
+    let detail = "seat must be left out, or be the `seat` of an earlier hello: 64 hexadecimal digits";
+    Problem::new(StatusCode::BAD_REQUEST, "malformed", detail).field("seat")
+}
+
 /// A place among a session's browsers. Dropping it frees the place, also if the upgrade fails.
 struct Seat {
     own: u64,
+    /// Known to its browser only.
+    key: String,
     hub: Arc<Hub>,
 }
 
 impl Seat {
-    fn take(hub: &Arc<Hub>) -> Option<Self> {
-        Some(Self { own: hub.reseat(Seats::join)?, hub: hub.clone() })
+    fn take(hub: &Arc<Hub>, key: String) -> Option<Self> {
+        Some(Self { own: hub.reseat(Seats::join)?, key, hub: hub.clone() })
     }
 }
 
@@ -183,7 +208,7 @@ impl Connection {
     }
 
     async fn greet(&mut self, seats: &Seats) -> Result<(), axum::Error> {
-        let hello = self.hub.hello(self.seat.own, seats, self.message_bytes);
+        let hello = self.hub.hello(self.seat.own, &self.seat.key, seats, self.message_bytes);
         self.send_message(&ServerMessage::Hello(hello)).await
     }
 
@@ -298,7 +323,13 @@ impl Connection {
             }
             message => match message.command() {
                 Some(command @ Command::Step(_)) => self.stepping.push(self.hub.session.begin(command)?),
-                Some(command) => self.hub.session.send(command).await?,
+                Some(command) => {
+                    let begins_attempt = matches!(command, Command::Play(_));
+                    self.hub.session.send(command).await?;
+                    if begins_attempt {
+                        self.hub.set_player(&self.seat.key);
+                    }
+                }
                 None => {}
             },
         }

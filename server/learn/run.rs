@@ -11,12 +11,17 @@ use super::point::Point;
 pub trait Run: Sized {
     type World;
 
-    /// Runs until all updates are done or `watch` returns false. `watch` is called at the end of each point of the
-    /// curve.
+    /// Runs until all updates are done, `goes_on` or `watch` returns false. `goes_on` is asked before each step, `watch` at
+    /// the end of each point of the curve. A run that was stopped anywhere continues with the same bits.
     ///
     /// # Errors
     /// [`TrainingError`].
-    fn advance(&mut self, worlds: &[Self::World], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError>;
+    fn advance(
+        &mut self,
+        worlds: &[Self::World],
+        goes_on: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(&Self) -> bool,
+    ) -> Result<(), TrainingError>;
 
     /// Whether all updates are done.
     fn is_done(&self) -> bool;
@@ -38,7 +43,7 @@ pub struct Saving<'a> {
     pub period: Duration,
 }
 
-/// Advances a run to its end, or until `watch` returns false, and saves it: now and then, and when it stops. `curve` has
+/// Advances a run to its end, or until `goes_on` or `watch` returns false, and saves it: now and then, and when it stops. `curve` has
 /// the time of earlier parts, and gets that of this one.
 ///
 /// # Errors
@@ -48,21 +53,27 @@ pub fn drive<R: Run>(
     worlds: &[R::World],
     saving: Saving<'_>,
     curve: &mut Curve,
+    goes_on: &dyn Fn() -> bool,
     watch: &mut dyn FnMut(&R, &Curve) -> bool,
 ) -> Result<(), TrainingError> {
     let begun = Instant::now();
     let mut saved = Instant::now();
-    let mut failure = None;
-    run.advance(worlds, &mut |run| {
+    let (mut failure, mut is_saved) = (None, false);
+    run.advance(worlds, goes_on, &mut |run| {
         curve.time(begun.elapsed().as_secs_f64());
         curve.points = run.points().to_vec();
         let goes_on = watch(run, curve) && !run.is_done();
-        if !goes_on || saved.elapsed() >= saving.period {
+        is_saved = !goes_on || saved.elapsed() >= saving.period;
+        if is_saved {
             failure = run.write(saving.checkpoint, curve.spent_s()).err();
             saved = Instant::now();
         }
         goes_on && failure.is_none()
     })?;
+    if !is_saved && !run.is_done() {
+        curve.time(begun.elapsed().as_secs_f64());
+        failure = run.write(saving.checkpoint, curve.spent_s()).err();
+    }
     // Also of a run that was done already.
     curve.points = run.points().to_vec();
     failure.map_or(Ok(()), Err)

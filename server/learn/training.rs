@@ -194,10 +194,19 @@ impl State {
 impl Run for State {
     type World = Terrain;
 
-    fn advance(&mut self, terrains: &[Terrain], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
+    fn advance(
+        &mut self,
+        terrains: &[Terrain],
+        goes_on: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(&Self) -> bool,
+    ) -> Result<(), TrainingError> {
         let recipe = self.recipe.clone();
         let mut learner = Learner::new(&recipe, terrains, self.memory.clone())?;
         while learner.memory().updates < recipe.updates {
+            if !goes_on() {
+                self.memory = learner.memory().clone();
+                return Ok(());
+            }
             self.act(terrains, &mut learner)?;
             if self.replay.len() < recipe.warm_up {
                 continue;

@@ -204,5 +204,6 @@ impl Kept {
 }
 
 fn number(id: &str) -> Option<u64> {
-    id.strip_prefix(NUMBERED)?.parse().ok()
+    // The next number must exist, too.
+    id.strip_prefix(NUMBERED)?.parse::<u32>().ok().map(u64::from)
 }

@@ -10,6 +10,7 @@ mod encoding;
 mod fit;
 #[cfg(test)]
 mod fuzz_tests;
+mod hairs;
 mod plain;
 mod sketch;
 mod strokes;

@@ -89,9 +89,15 @@ fn a_kept_drawing_is_opened_where_its_reader_made_the_same_walls() {
     let plain = r#"<rect x="-20" y="280" width="40" height="40"/>"#;
     let styled = r#"<rect id="a" y="280" width="40" height="40" style="x: -20px"/>"#;
     let doubled = r#"<path id="b" d="M0 300v0h30v30" fill="none" stroke="red" stroke-linecap="round"/>"#;
-    for (body, since, place) in
-        [(plain, 1, ""), (styled, 2, "<rect> id=\"a\" at line 1"), (doubled, 3, "<path> id=\"b\"")]
-    {
+    let hair = r#"<path id="c" d="M-60 290.5q0 0 20 0t0 0s60 0 1.5 0"/>"#;
+    let both = [doubled, hair].concat();
+    for (body, since, place) in [
+        (plain, 1, ""),
+        (styled, 2, "<rect> id=\"a\" at line 1"),
+        (doubled, 3, "<path> id=\"b\""),
+        (hair, 4, "<path> id=\"c\""),
+        (&both, 4, "<path> id="),
+    ] {
         for reader in 1..=READER {
             match kept(body, reader) {
                 Ok(()) => assert!(reader >= since, "{body}: {reader}"),

@@ -151,6 +151,9 @@ pub struct AttemptQuery {
     /// The session in which it was played, and still is.
     #[schema(example = "main")]
     pub session: String,
+    /// `seat` of the `hello` of the browser that began it.
+    pub seat: String,
+    /// No control characters, and none that hide or turn letters.
     #[schema(min_length = 1, max_length = 24)]
     pub player: String,
     /// Name of a class.

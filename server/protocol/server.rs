@@ -62,6 +62,9 @@ pub struct Hello {
     pub message_bytes: u32,
     /// Name of the session.
     pub session: String,
+    /// Key of this browser's seat, which no other browser gets. An attempt at a challenge can be put on the board with the
+    /// key of the seat that began it. Connect again with `?seat=`.
+    pub seat: String,
     /// Ferry's version.
     pub version: String,
     /// This browser's role.

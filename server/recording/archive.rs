@@ -11,6 +11,10 @@ use jiff::{Timestamp, Zoned};
 use super::RecordingError;
 use super::about::{About, Content, title};
 
+mod quota;
+
+pub use quota::Retention;
+
 /// Format of a name's beginning: local time, to the millisecond.
 const BEGINNING: &str = "%Y%m%d-%H%M%S-%3f";
 const BEGINNING_LENGTH: usize = "20250130-235959-999".len();
@@ -68,21 +72,6 @@ fn started_and_session(id: &str, zone: &TimeZone) -> Option<(Timestamp, String)>
     Some((zone.to_timestamp(clock).ok()?, session.to_owned()))
 }
 
-/// Limits for old recordings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Retention {
-    /// Largest number of parts.
-    pub max_parts: usize,
-    /// Largest total size.
-    pub max_bytes: u64,
-}
-
-impl Default for Retention {
-    fn default() -> Self {
-        Self { max_parts: 200, max_bytes: 4 << 30 }
-    }
-}
-
 /// A folder of recordings. Some may be in progress.
 #[derive(Debug)]
 pub struct Archive {
@@ -126,6 +115,16 @@ impl Archive {
 
     /// The recordings, newest name first. A missing folder has none.
     pub fn list(&self) -> Result<Vec<Listed>, RecordingError> {
+        let mut found = self.scan()?;
+        for listed in &mut found {
+            let About { title, content } = About::read(&self.path(&listed.id, ABOUT));
+            (listed.title, listed.content) = (title, content);
+        }
+        Ok(found)
+    }
+
+    /// The same without titles and contents, which are in files.
+    fn scan(&self) -> Result<Vec<Listed>, RecordingError> {
         let failed = |error| RecordingError::Io { path: self.folder.clone(), error };
         let entries = match std::fs::read_dir(&self.folder) {
             Ok(entries) => entries,
@@ -140,12 +139,9 @@ impl Archive {
             let Some(id) = name.to_str().and_then(|name| name.strip_suffix(".rrd")) else { continue };
             // The recording may have been deleted meanwhile.
             let Some(bytes) = self.size(id, ENDINGS[0]) else { continue };
-            let About { title, content } = About::read(&self.path(id, ABOUT));
             found.push(Listed {
                 log_bytes: self.size(id, ENDINGS[1]),
                 live: live.contains(id),
-                title,
-                content,
                 about_bytes: self.size(id, ABOUT).unwrap_or_default(),
                 ..Listed::new(id, bytes, &zone)
             });
@@ -206,41 +202,6 @@ impl Archive {
         change(&mut about);
         about.write(&path).map_err(|error| RecordingError::Io { path, error })
     }
-
-    /// Returns the name of a new part of a session's recording, and deletes old recordings to make room.
-    pub(super) fn claim(&self, session: &str) -> Result<String, RecordingError> {
-        std::fs::create_dir_all(&self.folder)
-            .map_err(|error| RecordingError::Io { path: self.folder.clone(), error })?;
-        let id = name(&Zoned::now(), session);
-        lock(&self.live).insert(id.clone());
-        self.prune()?;
-        Ok(id)
-    }
-
-    /// Marks a recording as finished.
-    pub(super) fn release(&self, id: &str) {
-        lock(&self.live).remove(id);
-    }
-
-    /// Deletes the oldest recordings until the limits hold, including the new one. Files with other names and
-    /// recordings in progress stay.
-    fn prune(&self) -> Result<(), RecordingError> {
-        let _changing = lock(&self.changing);
-        let listed = self.list()?;
-        let ours = |listed: &&Listed| listed.session.is_some();
-        let mut count = 1 + listed.iter().filter(ours).count();
-        let mut bytes: u64 = listed.iter().filter(ours).map(Listed::all_bytes).sum();
-        for old in listed.iter().rev().filter(ours).filter(|listed| !listed.live) {
-            if count <= self.retention.max_parts && bytes <= self.retention.max_bytes {
-                break;
-            }
-            self.remove(&old.id)?;
-            tracing::info!(id = old.id, "old recording deleted");
-            count -= 1;
-            bytes -= old.all_bytes();
-        }
-        Ok(())
-    }
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -248,7 +209,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     #[test]
@@ -272,13 +233,13 @@ mod tests {
         }
     }
 
-    fn put(folder: &Path, id: &str, bytes: usize) {
+    pub(super) fn put(folder: &Path, id: &str, bytes: usize) {
         for ending in ENDINGS {
             std::fs::write(folder.join(format!("{id}.{ending}")), vec![0; bytes]).unwrap();
         }
     }
 
-    fn ids(archive: &Archive) -> Vec<String> {
+    pub(super) fn ids(archive: &Archive) -> Vec<String> {
         archive.list().unwrap().into_iter().map(|listed| listed.id).collect()
     }
 
@@ -290,33 +251,6 @@ mod tests {
         std::os::unix::fs::symlink("/etc/hostname", folder.path().join("link.rrd")).unwrap();
         let archive = Archive::new(folder.path().to_owned(), Retention::default());
         assert_eq!((ids(&archive), archive.file("link.rrd").unwrap()), (vec!["mine".to_owned()], None));
-    }
-
-    #[test]
-    fn deletes_only_the_oldest_by_count_and_by_size() {
-        let folder = tempfile::tempdir().unwrap();
-        let olds = ["20200101-000000-000-main", "20200101-000001-000-main", "20200101-000002-000-main"];
-        for id in olds {
-            put(folder.path(), id, 1000);
-        }
-        put(folder.path(), "mine", 100_000);
-        let archive = |max_parts, max_bytes| Archive::new(folder.path().to_owned(), Retention { max_parts, max_bytes });
-        let by_count = archive(3, u64::MAX);
-        by_count.live.lock().unwrap().insert(olds[0].to_owned());
-        // The new one is the fourth; the first is in progress.
-        let new = by_count.claim("main").unwrap();
-        assert_eq!(ids(&by_count), ["mine", olds[2], olds[0]]);
-        assert!(!folder.path().join(format!("{}.ferry", olds[1])).exists());
-        put(folder.path(), &new, 500);
-        assert!(by_count.list().unwrap()[1].live);
-
-        archive(100, 4000).claim("main").unwrap();
-        assert_eq!(ids(&by_count), ["mine", &new, olds[2]], "5000 bytes are too many, 3000 are not");
-
-        std::fs::write(by_count.path(olds[2], ABOUT), vec![b' '; 2000]).unwrap();
-        archive(100, 4000).claim("main").unwrap();
-        assert_eq!(ids(&by_count), ["mine", &new], "5000 bytes again");
-        assert!(!by_count.path(olds[2], ABOUT).exists());
     }
 
     fn archive_in(folder: &Path) -> Arc<Archive> {

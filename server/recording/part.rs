@@ -14,7 +14,7 @@ use crate::trial::{Entry, LogWriter};
 const FLUSH_EVERY: Duration = Duration::from_millis(200);
 /// Entries per frame; at full speed many arrive within the flush interval.
 const FRAME_ENTRIES: usize = 512;
-/// Interval of the checks of the disk; even at full speed, far less than the required free space is written in between.
+/// Interval of the checks of the disk and of the archive; even at full speed, far less than the required free space is written in between.
 const CHECK_EVERY: Duration = Duration::from_millis(300);
 
 /// Folder and names of the parts.
@@ -77,7 +77,9 @@ struct Part {
     /// Whether a failure to write `notes` was reported.
     reported_failure: bool,
     since: Instant,
-    /// Whether the end of the part was already reported.
+    /// Whether the next part should begin.
+    is_over: bool,
+    /// Whether that was already reported.
     reported_over: bool,
     /// The two files.
     paths: [PathBuf; 2],
@@ -100,6 +102,7 @@ impl Part {
             notes: Notes::default(),
             reported_failure: false,
             since: Instant::now(),
+            is_over: false,
             reported_over: false,
             paths,
             claim,
@@ -110,6 +113,22 @@ impl Part {
     fn check(&self) -> Result<(), RecordingError> {
         let gone = self.paths.iter().find(|path| !path.is_file());
         gone.map_or(Ok(()), |path| Err(RecordingError::Gone { path: path.clone() }))
+    }
+
+    /// Deletes old recordings if this part has grown too much.
+    fn keep_quota(&self) -> Result<(), RecordingError> {
+        self.claim.archive.as_ref().map_or(Ok(()), |archive| archive.keep_quota())
+    }
+
+    /// Whether the part is old enough, or too large for the archive. It stays so when there is more room.
+    fn is_over(&mut self, options: &Options) -> bool {
+        let is_large = |archive: &Arc<Archive>| {
+            let sizes = self.paths.iter().filter_map(|path| path.metadata().ok());
+            sizes.map(|data| data.len()).sum::<u64>() >= archive.part_bytes()
+        };
+        self.is_over =
+            self.is_over || self.since.elapsed() >= options.part || self.claim.archive.as_ref().is_some_and(is_large);
+        self.is_over
     }
 
     /// Writes what the part contains, if that has changed. A failure does not stop the recording, which is complete
@@ -170,8 +189,9 @@ impl Keeper {
         self.part.as_ref().map_or(CHECK_EVERY, |part| entries.min(part.notes.wait()))
     }
 
-    fn is_over(&self) -> bool {
-        self.part.as_ref().is_none_or(|part| part.since.elapsed() >= self.options.part)
+    fn is_over(&mut self) -> bool {
+        let Self { part, options, .. } = self;
+        part.as_mut().is_none_or(|part| part.is_over(options))
     }
 
     /// True once per part, when it is old enough, and while the folder of a lost part is back. The next part begins with
@@ -222,10 +242,11 @@ impl Keeper {
     fn begin(&mut self, opening: Opening) -> Result<(), RecordingError> {
         if self.is_over() {
             self.flush()?;
-            let next = Part::create(&self.naming, Some(&self.recording), &self.options)?;
-            if let Some(over) = self.part.replace(next) {
+            // Closed first: it can be deleted to make room for the next one.
+            if let Some(over) = self.part.take() {
                 over.close()?;
             }
+            self.part = Some(Part::create(&self.naming, Some(&self.recording), &self.options)?);
         }
         let Some(part) = &mut self.part else { return Ok(()) };
         part.notes.begin(&opening);
@@ -250,6 +271,7 @@ impl Keeper {
             part.check()?;
             check_room(self.naming.folder(), &self.options)?;
             part.writer.check()?;
+            part.keep_quota()?;
         }
         part.writer.flush()?;
         if !self.waiting.is_empty() {

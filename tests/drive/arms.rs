@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use futures_util::StreamExt;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::{REST, apart, driver, hold_until, joints, present, press, robot_of, task};
+use super::{REST, apart, driver, hold_until, joints, present, press, release, robot_of, stopping, task};
 
 /// Name, lengths d and a in m, and that of the tool that is set.
 type Arm = (&'static str, [f64; 6], [f64; 6], f64);
@@ -35,7 +35,8 @@ async fn ferry_moves_no_arm_but_its_own() {
         let (_robot, mut robot) = robot_of(&address, "open", REST, &data.path().join("robot"), &model).await;
         let (_server, mut page) = driver(&address, &["--enable-motion"], &data.path().join("twin")).await;
         task(&mut page, "open", 1, Some([0.2, -0.45]), [0.0, -0.3]).await;
-        let known = page.state("its name", |state| state["twin"]["model"] == name).await;
+        let known = |state: &Value| state["twin"]["model"] == name && state["twin"]["doubt"].is_string();
+        let known = page.state("its name, and what is odd", known).await;
         let doubt = known["twin"]["doubt"].as_str().unwrap();
         assert!(doubt.contains("TCP") && doubt.matches("p[").count() == 2, "{name}: {doubt}");
         let before = joints(&present(&mut robot).await);
@@ -50,10 +51,13 @@ async fn ferry_moves_no_arm_but_its_own() {
             assert_eq!(apart(&joints(&present(&mut robot).await), &before), 0.0, "{name}");
             return;
         }
-        press(&mut page).await;
-        let moves = robot.whenever("it moves", |m| m["type"] == "state" && apart(&joints(m), &before) > 0.01);
-        let holds = hold_until(&mut page, "forever", Duration::from_secs(60), |_| false);
-        tokio::select! { _ = moves => {}, _ = holds => unreachable!() };
+        let has_moved = |m: &Value| m["type"] == "state" && apart(&joints(m), &before) > 0.01;
+        loop {
+            press(&mut page).await;
+            let has_stopped = stopping();
+            let holds = hold_until(&mut page, "it moves or stops", Duration::from_secs(60), has_stopped);
+            tokio::select! { _ = robot.whenever("it moves", has_moved) => break, _ = holds => release(&mut page).await };
+        }
         let doubt = present(&mut page).await["twin"]["doubt"].clone();
         let is_expected = if tcp_m == 0.0 { doubt.is_null() } else { doubt.to_string().contains("calibration") };
         assert!(is_expected, "{name}: {doubt}");

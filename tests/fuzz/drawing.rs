@@ -105,14 +105,17 @@ type Bounds = [f64; 4];
 const EVERYTHING: Bounds = [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY];
 const NOTHING: Bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
+/// tiny-skia, and browsers, draw a stroke with a tiny hook otherwise when it is drawn larger.
+const RESOLUTIONS: [f32; 4] = [2.0, 8.0, 32.0, 128.0];
+
 fn join(one: &mut Bounds, [left, top, right, bottom]: Bounds) {
     *one = [one[0].min(left), one[1].min(top), one[2].max(right), one[3].max(bottom)];
 }
 
-/// The box of a path as it is drawn; usvg's boxes of turned ones are near it.
-fn tight(path: &usvg::Path) -> Bounds {
+/// The box of a path as it is drawn at a resolution; usvg's boxes of turned ones are near it.
+fn tight(path: &usvg::Path, resolution: f32) -> Bounds {
     let mut all = NOTHING;
-    let stroked = path.stroke().and_then(|stroke| path.data().stroke(&stroke.to_tiny_skia(), 8.0));
+    let stroked = path.stroke().and_then(|stroke| path.data().stroke(&stroke.to_tiny_skia(), resolution));
     for data in [path.fill().map(|_| path.data().clone()), stroked].into_iter().flatten() {
         let bounds = data.transform(path.abs_transform()).and_then(|data| data.compute_tight_bounds());
         if let Some(bounds) = bounds.filter(|bounds| bounds.width() * bounds.height() > 0.0) {
@@ -156,11 +159,14 @@ fn drawn(group: &usvg::Group, most: &mut Bounds, least: &mut Bounds) {
                     join(most, EVERYTHING);
                     continue;
                 }
-                let bounds = tight(path);
-                join(most, bounds.map(|side| side.clamp(-BORDER_MM, BORDER_MM)));
-                let is_whole = bounds.iter().all(|side| side.abs() <= BORDER_MM);
+                let all = RESOLUTIONS.map(|resolution| tight(path, resolution));
+                let common = all
+                    .into_iter()
+                    .fold(EVERYTHING, |a, b| [a[0].max(b[0]), a[1].max(b[1]), a[2].min(b[2]), a[3].min(b[3])]);
+                all.iter().for_each(|bounds| join(most, bounds.map(|side| side.clamp(-BORDER_MM, BORDER_MM))));
+                let is_whole = all.as_flattened().iter().all(|side| side.abs() <= BORDER_MM);
                 if is_whole && (path.id() == "s" && path.fill().is_some() || path.stroke().is_some()) {
-                    join(least, bounds);
+                    join(least, common);
                 }
             }
             _ => {}

@@ -17,7 +17,12 @@ pub struct Browser {
 impl Browser {
     /// Connects to the session `main` of a server.
     pub async fn at(address: SocketAddr) -> Self {
-        let (socket, _) = connect_async(format!("ws://{address}/api/sessions/main/live")).await.unwrap();
+        Self::with(address, "").await
+    }
+
+    /// The same with parameters.
+    pub async fn with(address: SocketAddr, query: &str) -> Self {
+        let (socket, _) = connect_async(format!("ws://{address}/api/sessions/main/live{query}")).await.unwrap();
         Self::of(socket)
     }
 

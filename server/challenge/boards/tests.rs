@@ -75,13 +75,19 @@ fn a_wrong_name_is_refused_and_nothing_is_written() {
         (signed(" Ada", None), "player"),
         (signed("Ada\n", None), "player"),
         (signed(&"a".repeat(25), None), "player"),
+        (signed("A\u{200b}da", None), "player"),
+        (signed("\u{202e}adA", None), "player"),
         (signed("Ada", Some("")), "class"),
+        (signed("Ada", Some("7\u{2800}b")), "class"),
     ] {
         let (attempt, run) = judged(1000);
         let error = boards.add(&"easy-a".parse().unwrap(), signature, &attempt, run).unwrap_err();
         assert!(matches!(error, BoardError::Name { field, .. } if field == wrong), "{error}");
     }
     assert!(!folder.path().join("challenges").exists());
+    for name in ["\u{1f469}\u{200d}\u{1f52c}", "\u{2764}\u{fe0f}", "می\u{200c}خواهم", "Zoë", "李"] {
+        signed(name, None).check().unwrap();
+    }
 }
 
 #[test]

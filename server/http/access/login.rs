@@ -69,7 +69,7 @@ pub async fn login(
         .http_only(true)
         .same_site(SameSite::Strict)
         .secure(origin.starts_with("https:"))
-        .path("/")
+        .path(server.base.cookie_path())
         .max_age(LASTS.try_into().map_err(Problem::internal)?);
     Ok(set(cookie.build(), key))
 }
@@ -100,7 +100,7 @@ pub async fn logout(State(server): State<Arc<Server>>, headers: HeaderMap) -> Re
     if let Some(login) = server.access.login(&headers) {
         server.access.logged_out.add(login);
     }
-    let expired = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path("/");
+    let expired = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path(server.base.cookie_path());
     (StatusCode::NO_CONTENT, [(header::SET_COOKIE, expired.removal().build().to_string())]).into_response()
 }
 

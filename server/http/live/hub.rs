@@ -79,6 +79,8 @@ pub struct Hub {
     watched: Mutex<Instant>,
     /// Paused because it had no viewers for long.
     parked: AtomicBool,
+    /// Key of the seat that began the newest attempt at a challenge.
+    player: Mutex<Option<String>>,
 }
 
 impl Hub {
@@ -106,6 +108,7 @@ impl Hub {
             closing: watch::Sender::new(false),
             watched: Mutex::new(now),
             parked: AtomicBool::new(false),
+            player: Mutex::default(),
         })
     }
 
@@ -219,12 +222,23 @@ impl Hub {
         done.expect("the change was made")
     }
 
-    pub fn hello(&self, connection: u64, seats: &Seats, message_bytes: usize) -> Hello {
+    /// Notes who begins an attempt at a challenge.
+    pub fn set_player(&self, key: &str) {
+        *self.player.lock().unwrap_or_else(PoisonError::into_inner) = Some(key.to_owned());
+    }
+
+    /// Whether the newest attempt at a challenge was begun from the seat with this key.
+    pub fn is_player(&self, key: &str) -> bool {
+        self.player.lock().unwrap_or_else(PoisonError::into_inner).as_deref() == Some(key)
+    }
+
+    pub fn hello(&self, connection: u64, key: &str, seats: &Seats, message_bytes: usize) -> Hello {
         let operates = seats.operator == Some(connection);
         Hello {
             protocol: PROTOCOL_VERSION,
             message_bytes: message_bytes as u32,
             session: self.id.clone(),
+            seat: key.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             role: if operates { Role::Operator } else { Role::Viewer },
             epoch: seats.epoch,

@@ -27,8 +27,8 @@ use crate::scenario::ControllerName;
 use crate::session::Ended;
 use crate::trial::TrialError;
 
-/// Runs of controllers and of attempts wait for each other.
-const JUDGE_WAITS: Duration = Duration::from_secs(60);
+/// Attempts wait for each other, and so do the controllers' runs. An attempt never waits for them.
+const RUN_WAITS: Duration = Duration::from_secs(60);
 /// Challenges whose ghosts are kept in memory.
 const KEPT: usize = 32;
 /// Earlier challenges in the list.
@@ -144,7 +144,7 @@ pub async fn ghosts(
     Path(ChallengePath { name }): Path<ChallengePath>,
 ) -> Result<Json<Ghosts>, Problem> {
     let name = named(&name)?;
-    let runs = server.work_at(&server.judge, JUDGE_WAITS, move |server| {
+    let runs = server.work_at(&server.ghosts, RUN_WAITS, move |server| {
         let best = server.contests.boards.of(&name).into_iter().next();
         let challenge = Challenge::of(name)?;
         let ghosts = server.contests.ghosts_of(&challenge, &server.gpu)?;
@@ -161,7 +161,7 @@ pub async fn attempt(
     Path(SessionPath { id }): Path<SessionPath>,
 ) -> Result<Json<AttemptReport>, Problem> {
     let played = find(&server, &id)?.session.played().await.map_err(|error| Problem::from(&error))?;
-    let report = server.work_at(&server.judge, JUDGE_WAITS, move |server| {
+    let report = server.work_at(&server.ghosts, RUN_WAITS, move |server| {
         let ghosts = server.contests.ghosts_of(&played.challenge, &server.gpu)?;
         Ok::<_, NoGhosts>(AttemptReport::of(&played, &ghosts))
     });
@@ -178,7 +178,7 @@ pub async fn add(
     WholeBody(body): WholeBody,
 ) -> Result<(StatusCode, Json<AttemptAnswer>), Problem> {
     let name = named(&name)?;
-    let AttemptQuery { session, player, class, attempt } = parse(&body)?;
+    let AttemptQuery { session, seat, player, class, attempt } = parse(&body)?;
     let attempt = Attempt::from(attempt);
     let hub = server.sessions.find(&session);
     let hub = hub.ok_or_else(|| refused("unknown_session", "session", format!("there is no session {session:?}")))?;
@@ -186,6 +186,10 @@ pub async fn add(
     if played.challenge.name != name {
         let detail = format!("session {session:?} plays {}, not {name}", played.challenge.name);
         return Err(refused("other_challenge", "session", detail));
+    }
+    if !hub.is_player(&seat) {
+        let detail = format!("seat is not that of the browser that began the attempt in session {session:?}");
+        return Err(refused("other_player", "seat", detail));
     }
     if let Some(why) = played.void {
         return Err(refused("does_not_count", "session", format!("the attempt does not count: {why}")));
@@ -198,7 +202,7 @@ pub async fn add(
         return Err(refused("other_log", "attempt.log", detail));
     }
     let signature = Signature { player, class, at: now() };
-    let answer = server.work_at(&server.judge, JUDGE_WAITS, move |server| {
+    let answer = server.work_at(&server.judge, RUN_WAITS, move |server| {
         let mut camera = played.challenge.arena.camera(&server.gpu).map_err(Problem::internal)?;
         let run = played.challenge.judge(&attempt, &mut camera)?;
         let total_s = run.score.total_s();

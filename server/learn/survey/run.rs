@@ -166,10 +166,19 @@ impl SurveyRun {
 impl Run for SurveyRun {
     type World = MazeLattice;
 
-    fn advance(&mut self, mazes: &[MazeLattice], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
+    fn advance(
+        &mut self,
+        mazes: &[MazeLattice],
+        goes_on: &dyn Fn() -> bool,
+        watch: &mut dyn FnMut(&Self) -> bool,
+    ) -> Result<(), TrainingError> {
         let recipe = self.recipe.clone();
         let mut learner = SurveyLearner::new(&recipe, self.memory.clone())?;
         while learner.memory.updates < recipe.updates {
+            if !goes_on() {
+                self.memory = learner.memory.clone();
+                return Ok(());
+            }
             self.act(mazes, &mut learner)?;
             if self.replay.len() < recipe.warm_up {
                 continue;

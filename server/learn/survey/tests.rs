@@ -115,19 +115,19 @@ fn imitation_teaches_and_a_resumed_run_is_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.checkpoint");
     let mut whole = SurveyRun::new(recipe.clone(), 3, &mazes).unwrap();
-    whole.advance(&mazes, &mut |_| true).unwrap();
+    whole.advance(&mazes, &|| true, &mut |_| true).unwrap();
     let losses: Vec<f64> = whole.curve.iter().map(|point| point.loss.mean().unwrap()).collect();
     assert!(losses[1] < 0.5 * losses[0], "{losses:?}");
 
     let mut half = SurveyRun::new(recipe.clone(), 3, &mazes).unwrap();
-    half.advance(&mazes, &mut |run| {
+    half.advance(&mazes, &|| true, &mut |run| {
         run.write(&path, 1.0).unwrap();
         false
     })
     .unwrap();
     let (mut resumed, spent_s) = SurveyRun::read(&path, &recipe, 3).unwrap();
     assert_eq!((resumed.memory.updates, spent_s), (100, 1.0));
-    resumed.advance(&mazes, &mut |_| true).unwrap();
+    resumed.advance(&mazes, &|| true, &mut |_| true).unwrap();
     assert_eq!(resumed.memory.online, whole.memory.online);
     assert_eq!(resumed.curve, whole.curve);
 

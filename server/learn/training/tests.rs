@@ -28,7 +28,7 @@ fn resuming_changes_nothing(recipe: &Recipe) {
     let terrains = [two_rooms()];
     let whole = on_threads(1, || {
         let mut state = State::new(recipe.clone(), 3, &terrains).unwrap();
-        state.advance(&terrains, &mut |_| true).unwrap();
+        state.advance(&terrains, &|| true, &mut |_| true).unwrap();
         state
     });
     assert!(whole.is_done() && whole.curve.len() == 2 && whole.episodes > 0);
@@ -38,12 +38,21 @@ fn resuming_changes_nothing(recipe: &Recipe) {
     let path = folder.path().join("run.checkpoint");
     let resumed = on_threads(2, || {
         let mut state = State::new(recipe.clone(), 3, &terrains).unwrap();
-        state.advance(&terrains, &mut |_| false).unwrap();
+        // Before the first update, and between two points of the curve.
+        for steps in [3, 20] {
+            let left = std::cell::Cell::new(steps);
+            let goes_on = || left.replace(left.get() - 1) > 0;
+            state.advance(&terrains, &goes_on, &mut |_| unreachable!("no point has ended")).unwrap();
+            state.write(&path, 1.0).unwrap();
+            state = State::read(&path, recipe, 3, &terrains).unwrap().0;
+        }
+        assert!(state.memory.updates > 0);
+        state.advance(&terrains, &|| true, &mut |_| false).unwrap();
         assert_eq!((state.memory.updates, state.is_done()), (WINDOW, false));
         state.write(&path, 12.5).unwrap();
         let (mut read, spent_s) = State::read(&path, recipe, 3, &terrains).unwrap();
         assert!(read == state && spent_s == 12.5);
-        read.advance(&terrains, &mut |_| true).unwrap();
+        read.advance(&terrains, &|| true, &mut |_| true).unwrap();
         read
     });
     // Numbers that print the same may differ, so the values are compared, not the texts.
@@ -160,7 +169,7 @@ fn a_small_run_learns_the_path_between_two_rooms() {
     for seed in [2, 3] {
         let mut state = State::new(recipe.clone(), seed, &terrains).unwrap();
         let untrained = state.examine(&terrains, GoalSet::All, EPISODES, 9).unwrap();
-        state.advance(&terrains, &mut |_| true).unwrap();
+        state.advance(&terrains, &|| true, &mut |_| true).unwrap();
         let trained = state.examine(&terrains, GoalSet::All, EPISODES, 9).unwrap();
         let ended = trained.reached + trained.collided + trained.timed_out;
         assert_eq!((trained.episodes, ended), (EPISODES, EPISODES));

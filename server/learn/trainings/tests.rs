@@ -108,8 +108,13 @@ fn a_training_that_is_interrupted_ends_in_the_same_policy() {
 #[test]
 fn a_cancelled_training_leaves_nothing_and_frees_its_name() {
     let folder = tempfile::tempdir().unwrap();
+    // A folder that no training made.
+    let foreign = folder.path().join(format!("trainings/training-{}", u64::MAX));
+    std::fs::create_dir_all(&foreign).unwrap();
     let laboratory = Laboratory::in_folder(folder.path());
+    std::fs::remove_dir(&foreign).unwrap();
     let first = laboratory.trainings.submit(query("mine")).unwrap();
+    assert_eq!(first.id, "training-1");
     let second = laboratory.trainings.submit(query("yours")).unwrap();
     let error = laboratory.trainings.submit(query("mine")).unwrap_err();
     assert!(matches!(error, SubmitTrainingError::Query(QueryError::Taken { .. })), "{error}");

@@ -33,7 +33,7 @@ const EXAMINED_EPISODES: u32 = 1000;
 /// Largest number of points of the curve that a policy keeps.
 const ORIGIN_POINTS: usize = 50;
 
-/// What a running training shall do at its next point. A later wish is stronger: a weaker one does not revoke it.
+/// What a running training shall do after its next update. A later wish is stronger: a weaker one does not revoke it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Wish {
     GoOn,
@@ -128,7 +128,7 @@ impl Training {
         self.query.name == name && !self.lock().stage.is_final()
     }
 
-    /// Pauses it, at its next point if it is running. Returns false if it cannot.
+    /// Pauses it, after its next update if it is running. Returns false if it cannot.
     pub fn pause(&self) -> bool {
         let mut status = self.lock();
         match status.stage {
@@ -156,7 +156,7 @@ impl Training {
         resumes
     }
 
-    /// Ends it, at its next point if it is running, and deletes what it has kept. Returns false if it had ended.
+    /// Ends it, after its next update if it is running, and deletes what it has kept. Returns false if it had ended.
     pub fn cancel(&self) -> bool {
         let mut status = self.lock();
         if status.stage.is_final() {
@@ -240,7 +240,7 @@ impl Training {
         let mut curve = Curve::resumed(spent_s);
         let mut failure = None;
         let saving = Saving { checkpoint: &checkpoint, period: SAVED_EVERY };
-        drive(&mut state, &terrains, saving, &mut curve, &mut |state, curve| match self.note(
+        drive(&mut state, &terrains, saving, &mut curve, &|| self.goes_on(), &mut |state, curve| match self.note(
             state,
             &terrains,
             &cells,

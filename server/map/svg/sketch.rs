@@ -11,6 +11,7 @@ use super::super::{MapError, Newer, Place, Repair, RepairKind};
 use super::Ring;
 use super::ViewBox;
 use super::contacts::Budget;
+use super::hairs::without_hairs;
 use super::plain::Plain;
 use super::strokes;
 use super::union::{overlay, simple};
@@ -43,7 +44,7 @@ pub(super) struct Sketch<'a> {
     /// The element of each ring.
     places: Vec<&'a Place>,
     pub repairs: Vec<Repair>,
-    pub newer: Option<Newer>,
+    pub newer: Vec<Newer>,
 }
 
 impl Sketch<'_> {
@@ -71,7 +72,7 @@ pub(super) fn sketch<'a>(tree: &'a usvg::Tree, view_box: &ViewBox, plain: &'a Pl
         drawn: HashSet::new(),
         repairs: plain.notes.clone(),
         reported: HashSet::new(),
-        newer: None,
+        newer: Vec::new(),
     };
     pen.group(tree.root(), "")?;
     for id in &plain.shown {
@@ -102,7 +103,8 @@ struct Pen<'a> {
     repairs: Vec<Repair>,
     /// Repairs that were already reported: copies by `<use>` are reported once.
     reported: HashSet<Repair>,
-    newer: Option<Newer>,
+    /// One per version.
+    newer: Vec<Newer>,
 }
 
 impl<'a> Pen<'a> {
@@ -190,7 +192,12 @@ impl<'a> Pen<'a> {
                 (contacts.cross, RepairKind::Crosses),
                 (contacts.touch && !contacts.cross, RepairKind::Touches),
             ];
-            if self.append(&outline, rule, place) {
+            let rings = outline.simple_m(rule);
+            let left: Vec<Ring> = rings.iter().filter_map(without_hairs).collect();
+            if left != rings {
+                self.is_newer(4, place, "what is filled between a line and its way back was a wall");
+            }
+            if self.append(left, place) {
                 for (_, kind) in kinds.into_iter().filter(|&(found, _)| found) {
                     self.repair(place, kind);
                 }
@@ -211,12 +218,12 @@ impl<'a> Pen<'a> {
             }
             let drawn = strokes::outline(path.data(), stroke, 8.0 * scale.max(1.0));
             if let Some(what) = drawn.newer {
-                self.newer.get_or_insert(Newer { since: 3, place: place.clone(), what });
+                self.is_newer(3, place, what);
             }
             for outline in drawn.outlines {
                 let outline = self.flatten(&outline, transform, place)?;
                 self.budget.spend(&outline.rings_mm).map_err(|_| tangled(place))?;
-                self.append(&outline, FillRule::NonZero, place);
+                self.append(outline.simple_m(FillRule::NonZero), place);
             }
         }
         let drawn = &self.rings[rings_before..];
@@ -230,11 +237,18 @@ impl<'a> Pen<'a> {
     }
 
     /// Returns whether there was anything to append.
-    fn append(&mut self, outline: &Flat, rule: FillRule, place: &'a Place) -> bool {
+    fn append(&mut self, rings: Vec<Ring>, place: &'a Place) -> bool {
         let before = self.rings.len();
-        self.rings.extend(outline.simple_m(rule));
+        self.rings.extend(rings);
         self.places.resize(self.rings.len(), place);
         self.rings.len() > before
+    }
+
+    /// Readers before version `since` made other walls of an element.
+    fn is_newer(&mut self, since: u32, place: &Place, what: &'static str) {
+        if self.newer.iter().all(|newer| newer.since != since) {
+            self.newer.push(Newer { since, place: place.clone(), what });
+        }
     }
 
     fn flatten(&mut self, path: &Path, transform: Transform, place: &Place) -> Result<Flat, MapError> {

@@ -366,3 +366,23 @@ fn strokes_that_nearly_coincide_leave_no_slivers() {
     assert_eq!(map.walls().len(), 1);
     assert!(map.walls()[0].holes.len() < 20, "{}", map.walls()[0].holes.len());
 }
+
+/// Found by fuzzing: with the union's own precision these took seven seconds.
+#[test]
+fn strokes_that_nearly_coincide_are_united_within_a_second() {
+    let ends = ["t100 5s5 5 5 5", "t5 5s5 5 5 5", "t5 5s7e1 7e1 7e1 7e1"];
+    let stroke = |end| {
+        format!(
+            "<path d=\"m5 5h5v5q5 5 5 5{end}\" stroke=\"#123\" stroke-width=\"4\" stroke-linecap=\"round\" transform=\"scale(1.5 -.5)\"/>"
+        )
+    };
+    let body = ends.map(stroke).concat();
+    let view = "-2000 -2000 4000 4000";
+    let svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{view}\"><g transform=\"scale(1.5 -.5)\">{body}</g></svg>"
+    );
+    let started = std::time::Instant::now();
+    let map = Map::from_svg("case", &svg).unwrap();
+    assert_eq!(map.walls().len(), 1);
+    assert!(started.elapsed().as_secs_f64() < 1.0, "{:?}", started.elapsed());
+}

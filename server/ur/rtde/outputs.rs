@@ -73,6 +73,7 @@ const NAMED: &[(&str, Read)] = &[
     ("actual_robot_voltage", |_, _| Value::Double(0.0)),
     ("actual_robot_current", |_, _| Value::Double(0.0)),
     ("actual_joint_voltage", |_, _| Value::Vector6([0.0; 6])),
+    ("joint_position_deviation_ratio", |_, _| Value::Double(0.0)),
     ("runtime_state", |_, robot| Value::Uint32(if robot.is_running() { 2 } else { 1 })),
     ("robot_status_bits", |arm, robot| Value::Uint32(u32::from(arm.has_joints) | u32::from(robot.is_running()) << 1)),
     ("safety_status_bits", |_, robot| Value::Uint32(if robot.is_stopped() { 1 << 2 } else { 1 })),

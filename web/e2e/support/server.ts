@@ -26,6 +26,8 @@ export interface ServerOptions {
   readonly data?: string;
   /** The address of its robot server; without one if not set. Each test has its own. */
   readonly robot?: string;
+  /** Path below which a proxy has it; none if not set. */
+  readonly basePath?: string;
   /** The address of a robot that it mirrors and may move. */
   readonly drives?: string;
 }
@@ -57,6 +59,7 @@ export class Server {
         ...['--data', data],
         ...['--sessions', String(SESSIONS)],
         ...(scenario === null ? [] : ['--scenario', scenario]),
+        ...(given.basePath === undefined ? [] : ['--base-path', given.basePath]),
         ...(given.robot === undefined ? [] : ['--robot-server', given.robot]),
       ],
       {

@@ -6,6 +6,7 @@ import type { MapLayer } from '../plan/layer';
 import { VIEW_MODES, type ViewMode } from './viewMode';
 import type { Lab } from '../lab/slices';
 import './WorkspaceHead.css';
+import { addressOf, pathOf } from '../net/base';
 
 /** Radio buttons, so that arrow keys switch between them. */
 function ViewSwitch(props: {
@@ -63,7 +64,7 @@ export function WorkspaceHead(props: {
         <a
           class="button small"
           // The demonstration returns to this page.
-          href={`/demo#${window.location.pathname}`}
+          href={`${addressOf('/demo')}#${pathOf(window.location.pathname)}`}
           title="A demonstration that runs by itself. F11 gives it the whole screen, Esc returns."
         >
           Present

@@ -30,6 +30,7 @@ describe('announcements', () => {
       protocol: 1,
       message_bytes: 65536,
       session: 'main',
+      seat: 'a1',
       version: '',
       role,
       epoch: 1,

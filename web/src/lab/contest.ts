@@ -42,7 +42,7 @@ export const isAtStake = ({ state }: Pick<Trial, 'state'>): boolean => {
   return attempt?.void === null && !isOver(attempt) && now?.running === true;
 };
 
-type Reads = Pick<Session, 'session' | 'send'> & Pick<Trial, 'scene' | 'state'>;
+type Reads = Pick<Session, 'session' | 'send' | 'hello'> & Pick<Trial, 'scene' | 'state'>;
 
 export function createContest(lab: Reads): Contest {
   const name = createMemo(() => lab.scene()?.challenge ?? undefined);
@@ -100,10 +100,11 @@ export function createContest(lab: Reads): Contest {
       lab.send({ type: 'play_challenge', challenge });
     },
     sign: async (player, group) => {
-      const [of, ended] = [name(), report()?.attempt];
-      if (of === undefined || !ended) return;
+      const [of, ended, seat] = [name(), report()?.attempt, lab.hello()?.seat];
+      if (of === undefined || !ended || seat === undefined) return;
       const query: AttemptQuery = {
         session: lab.session,
+        seat,
         player,
         attempt: ended,
         ...(group === '' ? {} : { class: group }),

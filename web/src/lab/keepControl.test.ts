@@ -10,9 +10,10 @@ function storage() {
   };
 }
 
-const OPERATOR = { role: 'operator', operator_present: true } as const;
-const WATCHING = { role: 'viewer', operator_present: true } as const;
-const FREE = { role: 'viewer', operator_present: false } as const;
+const SEAT = { seat: 'a1' };
+const OPERATOR = { ...SEAT, role: 'operator', operator_present: true } as const;
+const WATCHING = { ...SEAT, role: 'viewer', operator_present: true } as const;
+const FREE = { ...SEAT, role: 'viewer', operator_present: false } as const;
 
 it('takes control again when the old connection closes last', () => {
   const tab = storage();
@@ -63,4 +64,11 @@ it('takes no control that becomes free later', () => {
   now_ms = 10_001;
   keeper.hello(FREE);
   expect(take).not.toHaveBeenCalled();
+});
+
+it('keeps the key of its seat for the next connection', () => {
+  const tab = storage();
+  expect(createKeeper('main', tab, vi.fn()).seat()).toBeUndefined();
+  createKeeper('main', tab, vi.fn()).hello(WATCHING);
+  expect(createKeeper('main', tab, vi.fn()).seat()).toBe('a1');
 });

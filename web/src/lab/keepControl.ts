@@ -1,9 +1,10 @@
-// After a reload or a lost connection the server may close the old connection after the new one has come. Then control is
-// free, and the page that had it takes it again.
+// What a page keeps over a reload or a lost connection: the key of its seat, and control. The server may close the old
+// connection after the new one has come. Then control is free, and the page that had it takes it again.
 
 import type { Hello } from '../net/protocol.gen';
 
 const KEY = 'ferry.operates';
+const SEAT_KEY = 'ferry.seat';
 /** The old connection is closed within this time. */
 const RETAKE_MS = 10_000;
 
@@ -11,7 +12,9 @@ export interface Keeper {
   /** Whether the connection is new and control that this page had before may come back, or just has. */
   isReturning(): boolean;
   opened(): void;
-  hello(message: Pick<Hello, 'role' | 'operator_present'>): void;
+  hello(message: Pick<Hello, 'role' | 'operator_present' | 'seat'>): void;
+  /** Key of the seat that this page had before. */
+  seat(): string | undefined;
 }
 
 /** `tab` is the storage of the browser's tab. */
@@ -27,12 +30,14 @@ export function createKeeper(
   const isReturning = (): boolean => now_ms() < until_ms;
   return {
     isReturning,
+    seat: () => tab.getItem(SEAT_KEY) ?? undefined,
     opened: () => {
       isOperator = false;
       hasAsked = false;
       until_ms = tab.getItem(KEY) === session ? now_ms() + RETAKE_MS : 0;
     },
-    hello: ({ role, operator_present }) => {
+    hello: ({ role, operator_present, seat }) => {
+      tab.setItem(SEAT_KEY, seat);
       if (role === 'operator') {
         isOperator = true;
         tab.setItem(KEY, session);

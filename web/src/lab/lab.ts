@@ -24,6 +24,7 @@ import type { Lab } from './slices';
 import { createSteering } from './steering';
 import { createWalls } from './walls';
 import { tabStorage } from '../ui/storage';
+import { pathOf } from '../net/base';
 
 export function createLab(page: Location, knownLayers: readonly KnownLayer[]): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
@@ -72,10 +73,10 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   const keeper = createKeeper(name, tabStorage(), () => socket.send({ type: 'take_control' }));
   const socket = connect(
     {
-      address: liveAddress(page, name),
+      address: () => liveAddress(page, name, keeper.seat()),
       // Requesting its page again would restart it: the user decides that.
       isOver: () => ended() !== undefined,
-      reopen: () => openPage(page.pathname),
+      reopen: () => openPage(pathOf(page.pathname)),
     },
     {
       opened: () => {
@@ -156,7 +157,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     obstacleMap: part('obstacleMap'),
     movedWalls: createWalls({ session: name, connection, scene, state, notify }),
     steering,
-    contest: createContest({ session: name, scene, state, send }),
+    contest: createContest({ session: name, hello, scene, state, send }),
     sight,
     setSight,
     comparison,

@@ -34,6 +34,7 @@ describe('messages', () => {
       protocol: 99,
       message_bytes: 65536,
       session: 'main',
+      seat: 'a1',
       version: '9',
       role: 'operator',
       epoch: 1,

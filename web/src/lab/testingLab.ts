@@ -28,6 +28,7 @@ const HELLO: Hello = {
   protocol: PROTOCOL_VERSION,
   message_bytes: 65536,
   session: 'main',
+  seat: 'a1',
   version: '0',
   role: 'operator',
   epoch: 1,

@@ -2,6 +2,7 @@
 
 import { createSignal } from 'solid-js';
 import { problemText } from './problem';
+import { addressOf } from './base';
 
 const NO_LOGIN = 401;
 const [loggedOut, setLoggedOut] = createSignal(false);
@@ -26,7 +27,7 @@ export async function openPage(
 
 /** `fetch` for all requests of the page to its server. */
 export async function askServer(path: string, init?: RequestInit): Promise<Response> {
-  const response = await fetch(path, init);
+  const response = await fetch(addressOf(path), init);
   setLoggedOut(response.status === NO_LOGIN);
   return response;
 }

@@ -6,7 +6,9 @@ describe('the address of the WebSocket', () => {
     expect(liveAddress({ protocol: 'http:', host: '127.0.0.1:8080' }, 'main')).toBe(
       'ws://127.0.0.1:8080/api/sessions/main/live',
     );
-    expect(liveAddress({ protocol: 'https:', host: 'lab' }, 'main')).toMatch(/^wss:/);
+    expect(liveAddress({ protocol: 'https:', host: 'lab' }, 'main', 'a1')).toMatch(
+      /^wss:.*live.seat=a1$/,
+    );
   });
 });
 
@@ -61,7 +63,7 @@ describe('a connection', () => {
   const open = (line: Partial<Line> = {}): ReturnType<typeof connect> =>
     connect(
       {
-        address: 'ws://lab/live',
+        address: () => 'ws://lab/live',
         isOver: () => false,
         reopen: () => Promise.resolve({ isOpen: true }),
         ...line,

@@ -2,6 +2,7 @@
 
 import type { ClientMessage, ServerMessage } from './protocol.gen';
 import { sessionPath } from './session';
+import { addressOf } from './base';
 
 const HEADER_BYTES = 8;
 
@@ -30,16 +31,18 @@ type Page = Pick<Location, 'protocol' | 'host'>;
 
 /** Address of a WebSocket on the host that served the page. */
 export function socketAddress({ protocol, host }: Page, path: string): string {
-  return `${protocol === 'https:' ? 'wss:' : 'ws:'}//${host}${path}`;
+  return `${protocol === 'https:' ? 'wss:' : 'ws:'}//${host}${addressOf(path)}`;
 }
 
-export function liveAddress(page: Page, session: string): string {
-  return socketAddress(page, sessionPath(session, 'live'));
+/** `seat` is the key that the server gave this browser before. */
+export function liveAddress(page: Page, session: string, seat?: string): string {
+  const query = seat === undefined ? '' : `?${new URLSearchParams({ seat }).toString()}`;
+  return socketAddress(page, sessionPath(session, 'live') + query);
 }
 
 /** The address of the WebSocket, and what to do before a new attempt. */
 export interface Line {
-  readonly address: string;
+  address(): string;
   /** The session has ended: do not reconnect. */
   isOver(): boolean;
   /** Requests the session again, which may be missing after a restart of the server. Returns the reason for a refusal. */
@@ -84,7 +87,7 @@ export function connect(line: Line, listener: Listener): Connection {
     else lose();
   };
   const open = (): void => {
-    const next = new WebSocket(line.address);
+    const next = new WebSocket(line.address());
     next.binaryType = 'arraybuffer';
     next.onopen = () => {
       attempt = 0;

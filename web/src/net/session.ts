@@ -1,5 +1,7 @@
 // The session of a page, from its address.
 
+import { pathOf } from './base';
+
 /** The session that always exists. */
 export const MAIN = 'main';
 
@@ -7,18 +9,18 @@ const DEMO = 'demo';
 
 /** Whether the address is that of the demonstration. */
 export function isDemo({ pathname }: Pick<Location, 'pathname'>): boolean {
-  return pathname === '/demo';
+  return pathOf(pathname) === '/demo';
 }
 
 /** Whether the address is that of a board. It needs no session. */
 export function isBoard({ pathname }: Pick<Location, 'pathname'>): boolean {
-  return pathname === '/board';
+  return pathOf(pathname) === '/board';
 }
 
 /** `/s/anna` is the page of the session `anna`, `/demo` of `demo`; every other address belongs to `main`. */
 export function sessionOf(page: Pick<Location, 'pathname'>): string {
   if (isDemo(page)) return DEMO;
-  return /^\/s\/([a-z0-9-]{1,32})$/.exec(page.pathname)?.[1] ?? MAIN;
+  return /^\/s\/([a-z0-9-]{1,32})$/.exec(pathOf(page.pathname))?.[1] ?? MAIN;
 }
 
 /** Path of a session's resource on the server. */

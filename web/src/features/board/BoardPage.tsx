@@ -32,6 +32,7 @@ import {
 import { createBoard } from './live';
 import { shownName } from '../../ui/name';
 import './board.css';
+import { addressOf } from '../../net/base';
 
 const LIST_MS = 15_000;
 
@@ -142,7 +143,8 @@ function Head(props: {
       <p class="board-play">
         <Show when={props.name}>
           {(name) => {
-            const address = (): string => `${window.location.origin}/${playQuery(name())}`;
+            const address = (): string =>
+              `${window.location.origin}${addressOf('/')}${playQuery(name())}`;
             return (
               <>
                 Play: <a href={address()}>{address()}</a>

@@ -4,6 +4,7 @@ import type { BoardEntry, ChallengeReport, ChallengeSummary, Period } from '../.
 import { DIFFICULTY_LABELS, PERIOD_LABELS } from '../../lab/challenges';
 import { seconds } from '../../ui/format';
 import { shownName } from '../../ui/name';
+import { addressOf } from '../../net/base';
 
 /** What the address chooses. */
 export interface Chosen {
@@ -27,7 +28,7 @@ export function boardAddress({ challenge, ofClass }: Chosen): string {
   if (challenge !== undefined) query.set('challenge', challenge);
   if (ofClass !== undefined) query.set('class', ofClass);
   const text = query.toString();
-  return text === '' ? '/board' : `/board?${text}`;
+  return addressOf(text === '' ? '/board' : `/board?${text}`);
 }
 
 export function easyOfToday(all: readonly ChallengeSummary[]): string | undefined {

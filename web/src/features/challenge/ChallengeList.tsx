@@ -9,6 +9,7 @@ import { counted, seconds } from '../../ui/format';
 import { OwnSession } from './OwnSession';
 import { challengeTitle, seedFault } from './words';
 import { shownName } from '../../ui/name';
+import { addressOf } from '../../net/base';
 
 const POLL_MS = 10_000;
 const ORDER: readonly Period[] = ['day', 'week'];
@@ -156,7 +157,7 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
         </Show>
       </div>
       <p>
-        <a class="button small" href="/board" target="_blank" rel="noopener">
+        <a class="button small" href={addressOf('/board')} target="_blank" rel="noopener">
           All boards
         </a>
       </p>

@@ -3,6 +3,7 @@
 import type { JSX } from 'solid-js';
 import { playQuery } from '../../lab/challenges';
 import { linkedChallenge } from '../../lab/pageChallenge';
+import { addressOf } from '../../net/base';
 
 /** Long enough that two pages do not choose the same one. */
 const LETTERS = 8;
@@ -21,7 +22,7 @@ export function OwnSession(props: { challenge?: string }): JSX.Element {
   return (
     <p class="own-session">
       Another browser operates this session, and you watch.{' '}
-      <a class="button small" href={`/s/${newSession()}${query()}`}>
+      <a class="button small" href={addressOf(`/s/${newSession()}${query()}`)}>
         Play in a session of your own
       </a>
     </p>

@@ -16,6 +16,7 @@ import { OwnSession } from './OwnSession';
 import { SignForm } from './SignForm';
 import { DIFFICULTY_HELP, challengeTitle, ghostName, lossWords, sumWords, verdict } from './words';
 import { shownName } from '../../ui/name';
+import { addressOf } from '../../net/base';
 
 const LINES = 5;
 
@@ -188,7 +189,12 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
         >
           Link
         </a>
-        <a class="button small" href={boardPath(props.name)} target="_blank" rel="noopener">
+        <a
+          class="button small"
+          href={addressOf(boardPath(props.name))}
+          target="_blank"
+          rel="noopener"
+        >
           Board
         </a>
       </div>

@@ -34,6 +34,7 @@ import {
   watchedCaption,
 } from './programme';
 import './demo.css';
+import { pathOf } from '../../net/base';
 
 const TICK_MS = 250;
 /** Interval of attempts to load the page again when it cannot go on. */
@@ -114,7 +115,7 @@ export function Demo(props: {
   const reload = async (): Promise<void> => {
     reload_ms = Infinity;
     // The browser's own page for a missing server would stay.
-    const { isOpen } = await openPage(window.location.pathname);
+    const { isOpen } = await openPage(pathOf(window.location.pathname));
     if (isOpen) window.location.reload();
     reload_ms = nowMs() + RELOAD_MS;
   };

@@ -11,6 +11,7 @@ import { seconds } from '../../ui/format';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import { MAIN, sessionOf } from '../../net/session';
 import { shownName } from '../../ui/name';
+import { addressOf } from '../../net/base';
 
 /** Something that happens when a state fits: a caption, and maybe a command. */
 export interface Cue {
@@ -252,5 +253,5 @@ export function isVisitorKey(
 /** The page to return to: that of the session whose path is after `#`, otherwise of the main session. */
 export function homeOf(hash: string): string {
   const session = sessionOf({ pathname: hash.slice(1) });
-  return session === MAIN ? '/' : `/s/${session}`;
+  return addressOf(session === MAIN ? '/' : `/s/${session}`);
 }

@@ -3,6 +3,7 @@
 import { fixed } from '../../ui/format';
 import { causeOf, isFailure } from '../../lab/failure';
 import type { EvaluationCell, EvaluationFailure, Row } from '../../net/protocol.gen';
+import { addressOf } from '../../net/base';
 
 export function percentRange([low, high]: readonly [number, number]): string {
   return `${fixed(100 * low, 0)}–${fixed(100 * high, 0)} %`;
@@ -54,5 +55,5 @@ export function difference(
 export const REPORTS = ['html', 'csv', 'json'] as const;
 
 export function reportAddress(id: string, ending: (typeof REPORTS)[number]): string {
-  return `/api/evaluations/${encodeURIComponent(id)}/report.${ending}`;
+  return addressOf(`/api/evaluations/${encodeURIComponent(id)}/report.${ending}`);
 }

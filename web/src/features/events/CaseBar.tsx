@@ -5,6 +5,7 @@ import { sessionPath } from '../../net/session';
 import type { Lab } from '../../lab/slices';
 import { FileButton } from '../../ui/FileButton';
 import { caseWords, openCase } from './cases';
+import { addressOf } from '../../net/base';
 
 export function CaseBar(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
@@ -12,7 +13,7 @@ export function CaseBar(props: { lab: Lab }): JSX.Element {
   const caseAddress = (): string | undefined => {
     const state = lab.state();
     if (!state || (!state.goal_m && state.deliveries === 0)) return undefined;
-    return sessionPath(lab.session, 'case.json');
+    return addressOf(sessionPath(lab.session, 'case.json'));
   };
   const words = createMemo(
     () => {

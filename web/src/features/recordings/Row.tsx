@@ -5,7 +5,8 @@ import { ConfirmButton } from '../../ui/ConfirmButton';
 import { TitleForm } from '../../ui/TitleForm';
 import type { RecordingFile } from '../../net/protocol.gen';
 import { duration, nameOf, ownName } from './names';
-import { type Ending, fileAddress, label, size, startedAt } from './recordings';
+import { type Ending, filePath, label, size, startedAt } from './recordings';
+import { addressOf } from '../../net/base';
 
 interface RowProps {
   readonly file: RecordingFile;
@@ -23,7 +24,7 @@ function Download(props: { file: RecordingFile; ending: Ending; words: string })
   return (
     <a
       class="button small"
-      href={fileAddress(props.file.id, props.ending)}
+      href={addressOf(filePath(props.file.id, props.ending))}
       download={`${props.file.id}.${props.ending}`}
       title={props.ending === 'ferry' ? 'Input log: “ferry replay” runs it again' : undefined}
       aria-label={`Download ${what()}${label(props.file)}`}

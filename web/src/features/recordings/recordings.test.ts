@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { fileAddress, label, size, startedAt } from './recordings';
+import { filePath, label, size, startedAt } from './recordings';
 
 test.each([
   [0, '0.0 kB'],
@@ -34,5 +34,5 @@ test('a foreign file is shown with its name', () => {
     content: null,
   };
   expect(label(stray)).toBe('a b');
-  expect(fileAddress(stray.id, 'rrd')).toBe('/api/recordings/a%20b.rrd');
+  expect(filePath(stray.id, 'rrd')).toBe('/api/recordings/a%20b.rrd');
 });

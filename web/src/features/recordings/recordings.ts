@@ -44,12 +44,12 @@ export function label({ id, session, started }: RecordingFile): string {
 /** Rerun's file for the viewer, and the input log for `ferry replay`. */
 export type Ending = 'rrd' | 'ferry';
 
-function address(id: string): string {
+function recordingPath(id: string): string {
   return `/api/recordings/${encodeURIComponent(id)}`;
 }
 
-export function fileAddress(id: string, ending: Ending): string {
-  return `${address(id)}.${ending}`;
+export function filePath(id: string, ending: Ending): string {
+  return `${recordingPath(id)}.${ending}`;
 }
 
 export interface Recordings {
@@ -97,11 +97,11 @@ export function createRecordings(): Recordings {
   };
   const rename = async (id: string, title: string): Promise<void> => {
     const body: RecordingTitle = { title };
-    const renamed = await patch<RecordingFile>(address(id), JSON.stringify(body));
+    const renamed = await patch<RecordingFile>(recordingPath(id), JSON.stringify(body));
     change((list) => list.map((file) => (file.id === id ? renamed : file)));
   };
   const discard = async (id: string, beforeRemoval: () => void): Promise<void> => {
-    await remove(address(id));
+    await remove(recordingPath(id));
     if (!closed) beforeRemoval();
     change((list) => list.filter((file) => file.id !== id));
   };

@@ -1,6 +1,7 @@
 // Messages from the laboratory to the viewer's page in its frame.
 
 import type { Theme } from '../../ui/theme';
+import { addressOf } from '../../net/base';
 
 export interface ThemeMessage {
   readonly type: 'theme';
@@ -9,7 +10,7 @@ export interface ThemeMessage {
 
 /** Address of the viewer's page, showing a recording. */
 export function viewerAddress(recording: string, theme: Theme): string {
-  return `/viewer/?${new URLSearchParams({ recording, theme }).toString()}`;
+  return addressOf(`/viewer/?${new URLSearchParams({ recording, theme }).toString()}`);
 }
 
 export function themeOf(message: unknown): Theme | undefined {

@@ -16,6 +16,7 @@ import { RecoveryFigure } from './RecoveryFigure';
 import { RecoveryStart } from './RecoveryStart';
 import { type Arrangement, store } from './store';
 import './recovery.css';
+import { addressOf } from '../../net/base';
 
 const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
 const labelOf = (name: string): string => LABELS.get(name) ?? name;
@@ -228,10 +229,10 @@ export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHa
                 </Show>
                 <Arrange report={report()} />
                 <Legend isDifference={store.arrangement() !== 'each'} />
-                <a href={`/api/recoveries/${report().id}/map.html`} download="">
+                <a href={addressOf(`/api/recoveries/${report().id}/map.html`)} download="">
                   HTML
                 </a>
-                <a href={`/api/recoveries/${report().id}/map.csv`} download="">
+                <a href={addressOf(`/api/recoveries/${report().id}/map.csv`)} download="">
                   CSV
                 </a>
               </div>

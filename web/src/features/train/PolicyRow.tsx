@@ -13,6 +13,7 @@ import { Curves } from './Curves';
 import { withLast } from './curves';
 import { changeWords, RECIPE_WORDS } from './recipes';
 import { policyFile } from './trainings';
+import { addressOf } from '../../net/base';
 
 export interface PolicyDeeds {
   readonly onUse: () => void;
@@ -124,7 +125,7 @@ export function PolicyRow(props: RowProps): JSX.Element {
           </button>
           <a
             class="button small"
-            href={policyFile(name())}
+            href={addressOf(policyFile(name()))}
             download={`${name()}.safetensors`}
             aria-label={`Download ${name()}`}
           >

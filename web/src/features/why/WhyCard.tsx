@@ -10,6 +10,7 @@ import { eventTitle, isSameEvent, marginOf, sentence, whatItSaw } from '../../la
 import { causeOfEvent } from '../../lab/failure';
 import type { Events, OpenTab, Session, Trial } from '../../lab/slices';
 import './why.css';
+import { addressOf } from '../../net/base';
 
 /** e on a scale from 0 to twice the limit. The limit is in the middle. */
 function MarginBar(props: { moment: MomentMessage }): JSX.Element {
@@ -41,7 +42,7 @@ function Story(props: {
       <p>{whatItSaw(props.moment)}</p>
       <img
         class="why-picture"
-        src={`${props.path}/camera.png`}
+        src={addressOf(`${props.path}/camera.png`)}
         width="480"
         height="480"
         alt={`What the camera saw at ${clock(props.moment.sim_time_s)}`}

@@ -171,7 +171,15 @@ export type AttemptQuery = {
 /**
  * The session in which it was played, and still is.
  */
-session: string, player: string, 
+session: string, 
+/**
+ * `seat` of the `hello` of the browser that began it.
+ */
+seat: string, 
+/**
+ * No control characters, and none that hide or turn letters.
+ */
+player: string, 
 /**
  * Name of a class.
  */

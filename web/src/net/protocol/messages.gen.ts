@@ -58,6 +58,11 @@ message_bytes: number,
  */
 session: string, 
 /**
+ * Key of this browser's seat, which no other browser gets. An attempt at a challenge can be put on the board with the
+ * key of the seat that began it. Connect again with `?seat=`.
+ */
+seat: string, 
+/**
  * Ferry's version.
  */
 version: string, 

@@ -3,6 +3,7 @@
 import { problemText } from '../../net/problem';
 import { createTheme } from '../../ui/theme';
 import { takeToken } from '../../net/loginToken';
+import { addressOf, pathOf } from '../../net/base';
 
 function byTag<T extends Element>(selector: string, kind: new () => T): T {
   const found = document.querySelector(selector);
@@ -26,7 +27,7 @@ async function logIn(token: string): Promise<void> {
   button.disabled = true;
   say('Logging in…');
   try {
-    const response = await fetch('/login', {
+    const response = await fetch(addressOf('/login'), {
       method: 'POST',
       headers: { 'content-type': 'application/json' },
       body: JSON.stringify({ token }),
@@ -52,13 +53,13 @@ form.addEventListener('submit', (event) => {
 
 /** Loads the requested page after the login. */
 function enter(): void {
-  if (window.location.pathname === '/login') window.location.replace('/');
+  if (pathOf(window.location.pathname) === '/login') window.location.replace(addressOf('/'));
   else window.location.reload();
 }
 
 /** A link from another site comes without the cookie, although the browser may have it. */
 async function isKnown(): Promise<boolean> {
-  const response = await fetch('/api/maps', { method: 'HEAD' }).catch(() => undefined);
+  const response = await fetch(addressOf('/api/maps'), { method: 'HEAD' }).catch(() => undefined);
   return response?.ok === true;
 }
 

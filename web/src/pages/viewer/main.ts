@@ -5,6 +5,7 @@ import { keptAtHome } from './home';
 import { themeOf } from '../../features/recordings/viewerMessages';
 import { loadViewer, type WebHandle } from './rerun';
 import { Scheme } from './scheme';
+import { addressOf } from '../../net/base';
 
 const PANIC_CHECK_MS = 1000;
 
@@ -59,7 +60,10 @@ function watchForPanic(handle: WebHandle): void {
 }
 
 async function open(recording: string): Promise<void> {
-  const address = new URL(`/api/recordings/${encodeURIComponent(recording)}.rrd`, location.origin);
+  const address = new URL(
+    addressOf(`/api/recordings/${encodeURIComponent(recording)}.rrd`),
+    location.origin,
+  );
   await check(address.href);
   show('loading', 'Loading Rerun’s viewer, 13 MB the first time…');
   const Handle = await loadViewer();

@@ -1,5 +1,6 @@
 // The used part of Rerun's viewer: exports of wasm-bindgen in `re_viewer.js` 0.36.
 
+import { addressOf } from '../../net/base';
 /** Options of the viewer. See `AppOptions` in Rerun's `re_viewer/src/web.rs`. */
 interface ViewerOptions {
   readonly url: string;
@@ -24,8 +25,8 @@ interface Viewer {
 // `re_viewer.js` is a classic script that declares one name for all scripts of the page.
 declare const wasm_bindgen: Viewer;
 
-const SCRIPT = '/rerun/re_viewer.js';
-const MODULE = '/rerun/re_viewer_bg.wasm';
+const SCRIPT = addressOf('/rerun/re_viewer.js');
+const MODULE = addressOf('/rerun/re_viewer_bg.wasm');
 
 function runScript(address: string): Promise<void> {
   return new Promise((resolve, reject) => {
