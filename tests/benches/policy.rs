@@ -98,7 +98,7 @@ pub fn benches(c: &mut Criterion) {
     let train = || {
         let mut state = State::new(recipe.clone(), 1, &terrains).unwrap();
         let start = Instant::now();
-        pool.install(|| state.advance(&terrains, &mut |_| true)).unwrap();
+        pool.install(|| state.advance(&terrains, &|| true, &mut |_| true)).unwrap();
         start.elapsed()
     };
     let took = train();
