@@ -177,10 +177,11 @@ soak: system-test
 # the same compiler. The stack has the size of a server thread's.
 FUZZ_SECONDS ?= 300
 FUZZ_TARGETS ?= message map drawing case log entries policy rtde reports script dashboard
-fuzz: system-run
-	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/rustc.sh cargo build --release --features fuzz --example fuzz
+fuzz: fuzz-build
 	$(MAKE) --jobs=2 $(FUZZ_TARGETS:%=fuzz-%)
-fuzz-%:
+fuzz-build: system-run
+	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/rustc.sh cargo build --release --features fuzz --example fuzz
+fuzz-%: fuzz-build
 	ulimit -s 2048; folder=target/fuzz/$*; mkdir -p $$folder/{seeds,corpus,found}; echo "$*, $(FUZZ_SECONDS) s"; \
 	FUZZ_TARGET=$* FUZZ_SEEDS=$$folder/seeds target/release/examples/fuzz $$folder/{corpus,seeds} \
 		-artifact_prefix=$$folder/found/ -max_total_time=$(FUZZ_SECONDS) -timeout=5 -rss_limit_mb=2048 \
