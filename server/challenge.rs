@@ -1,7 +1,6 @@
 //! Challenges: a trial that a person steers, drawn from a name, and the judgement of attempts at it.
 
 mod attempt;
-mod boards;
 mod ghosts;
 mod loss;
 mod score;
@@ -18,7 +17,6 @@ use crate::scenario::{ControllerName, Parameters, RandomTrialError, Scenario};
 use crate::trial::Arena;
 
 pub use attempt::{Attempt, AttemptError, INPUTS_MOST, Run};
-pub use boards::{BoardError, Boards, Entry, Kept, Signature};
 pub use ghosts::Ghost;
 pub use loss::Loss;
 pub use score::{LOST_BEAD_S, Mishap, Referee, SAMPLE_TICKS, Sample, Score, Trace, WALL_S};

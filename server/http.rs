@@ -34,8 +34,7 @@ use tokio_util::task::TaskTracker;
 use crate::camera::Gpu;
 use crate::evaluate::Evaluations;
 use crate::jobs::Queue;
-use crate::learn::Trainings;
-use crate::policy;
+use crate::learn::{Library, Trainings};
 use crate::recording::{Archive, Retention};
 use crate::recovery::Recoveries;
 use crate::scenario::Scenario;
@@ -138,6 +137,8 @@ pub struct Server {
     maps: Maps,
     /// Maps and policies.
     catalog: Catalog,
+    /// Those of the catalogue, with their files.
+    policies: Arc<Library>,
     /// Images of maps, for value maps.
     atlases: Atlases,
     /// Evaluations and trainings, in the background.
@@ -182,10 +183,10 @@ impl Server {
         let settings = SessionSettings { most: sessions, park_after, opening };
         let saved = SavedSessions::in_folder(data.join("sessions"), start_over);
         let changed = maps.version.clone();
-        let policies = policy::Library::in_folder(data.join("policies"), move || {
+        let policies = Arc::new(Library::in_folder(data.join("policies"), move || {
             changed.send_modify(|version| *version += 1);
-        });
-        let catalog = Catalog { maps: maps.all.clone(), policies: Arc::new(policies) };
+        }));
+        let catalog = Catalog { maps: maps.all.clone(), policies: policies.clone() };
         let sessions =
             Sessions::new(gpu.clone(), recordings.clone(), catalog.clone(), maps.changes(), settings, saved, twin)?;
         let (jobs, sweeps) = (Arc::new(Queue::start(gpu.clone())?), data.join("sweeps"));
@@ -194,7 +195,14 @@ impl Server {
             programs: Programs::default(),
             evaluations: Evaluations::new(jobs.clone()),
             recoveries: Recoveries::new(jobs.clone()),
-            trainings: Trainings::in_folder(data.join("trainings"), sweeps.clone(), jobs.clone(), catalog.clone()),
+            trainings: Trainings::in_folder(
+                data.join("trainings"),
+                sweeps.clone(),
+                jobs.clone(),
+                maps.all.clone(),
+                policies.clone(),
+            ),
+            policies,
             jobs,
             page: page.below(&base),
             base,

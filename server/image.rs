@@ -1,14 +1,20 @@
 //! Images, camera frames and gray images, their encodings, and the pinhole camera model.
 
 mod comparison;
+mod error;
 mod pinhole;
+mod source;
 
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 use serde::{Deserialize, Serialize};
 
 pub use comparison::PictureDifference;
+pub use error::CameraError;
 pub use pinhole::{CameraMount, Pinhole};
+#[cfg(test)]
+pub(crate) use source::tests::EmptyFloor;
+pub use source::{ImageSource, StaticScene, Subject, VIEW_PX, check_mount};
 
 /// An image of RGBA8 pixels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

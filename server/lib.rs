@@ -6,18 +6,19 @@
 //! - floor 1: [`geometry`], [`image`], [`files`]: frames, poses, shapes; camera frames and gray images; bounded files.
 //! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
 //! - floor 3: [`plant`]: arm, bead, contact, disturbance.
-//! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: set-up of a trial; image; position; percept.
-//! - floor 5: [`policy`], [`jobs`], [`export`]: network, weights, manifest; the queue of background jobs; models of the
-//!   arm for other programs.
+//! - floor 4: [`scenario`], [`tracking`], [`perception`]: set-up of a trial; position; percept.
+//! - floor 5: [`policy`]: network, weights, manifest.
 //! - floor 6: [`control`]: switching law, sub-controllers 1 and 2, limits.
 //! - floor 7: [`trial`]: one episode as a pure, deterministic loop.
-//! - floor 8: [`challenge`], [`program`], [`ur`]: a trial for a person's hand: its score, ghosts and board; questions to a
-//!   program; what the robot's controller says.
-//! - floor 9: [`learn`], [`evaluate`], [`session`]: training; trials in bulk; a trial on a real clock.
-//! - floor 10: [`recovery`]: disturbances from one moment, in bulk.
-//! - floor 11: [`recording`], [`protocol`]: Rerun; every wire type.
-//! - floor 12: [`http`], [`robot_server`]: axum routes and the WebSocket; the ports of a robot's controller.
-//! - floor 13: [`cli`]: assembling.
+//! - floor 8: [`challenge`], [`program`], [`ur`], [`camera`]: a trial for a person's hand: its score and ghosts; questions
+//!   to a program; what the robot's controller says; images by a graphics device.
+//! - floor 9: [`jobs`], [`export`]: the queue of background jobs; models of the arm for other programs.
+//! - floor 10: [`learn`], [`evaluate`], [`session`], [`boards`]: training; trials in bulk; a trial on a real clock; the
+//!   boards of challenges.
+//! - floor 11: [`recovery`]: disturbances from one moment, in bulk.
+//! - floor 12: [`recording`], [`protocol`]: Rerun; every wire type.
+//! - floor 13: [`http`], [`robot_server`]: axum routes and the WebSocket; the ports of a robot's controller.
+//! - floor 14: [`cli`]: assembling.
 
 /// Panics here when a test has requested it (see `faults`). Other builds contain nothing.
 macro_rules! fault_point {
@@ -29,6 +30,7 @@ macro_rules! fault_point {
     };
 }
 
+pub mod boards;
 pub mod camera;
 pub mod challenge;
 pub mod cli;

@@ -3,10 +3,10 @@
 mod convolution;
 mod file;
 mod lattice;
-mod library;
 mod linear;
 mod modulation;
 mod network;
+mod policies;
 mod survey;
 
 use std::sync::Arc;
@@ -17,10 +17,10 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Vector2;
 use crate::perception::{OBSERVATION_SIZE_PX, Observation};
 
-pub use file::{Manifest, PolicyError};
+pub use file::{MAX_BYTES, Manifest, PolicyError, weights};
 pub use lattice::{Cell, Lattice, neighbours};
-pub use library::{ADDED_POLICIES, Added, Library, LibraryError, is_added, weights};
 pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, TensorSpec};
+pub use policies::{Policies, Shipped};
 use survey::Plan;
 pub use survey::{Survey, SurveyParts};
 

@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::{mpsc, oneshot};
 
-use crate::camera::ImageSource;
 use crate::control::transport::program::Answer;
 use crate::geometry::Rect;
+use crate::image::ImageSource;
 use crate::perception::Percept;
 use crate::scenario::Parameters;
 use crate::trial::{Input, Question, REASON_BYTES_MOST, Seen, Source, TickRecord, Trial, TrialError};

@@ -34,7 +34,7 @@ use std::time::Duration;
 
 use tokio::sync::{broadcast, oneshot, watch};
 
-use crate::camera::Gpu;
+use crate::camera::{Camera, Gpu};
 use crate::challenge::{Challenge, ChallengeName};
 use crate::plant::PositionerKind;
 use crate::program::Program;
@@ -248,7 +248,7 @@ impl Session {
     ) -> Result<Self, TrialError> {
         catalog.resolve(&mut scenario.parameters)?;
         let arena = catalog.arena(&scenario.map)?;
-        let make_camera = Box::new(move |arena: &Arena| arena.camera(&gpu));
+        let make_camera = Box::new(move |arena: &Arena| Camera::of(&gpu, arena.static_scene()));
         let (commands, inbox) = sync_channel(COMMAND_QUEUE);
         let (events, _) = broadcast::channel(EVENT_QUEUE);
         let mut worker = worker::Worker::new(name, scenario, arena, catalog, make_camera, sink, events.clone())?;

@@ -29,10 +29,10 @@ use std::sync::Arc;
 
 use rand::Rng;
 
-use crate::camera::{CameraError, ImageSource, Subject};
 use crate::control::{approach, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
+use crate::image::{CameraError, ImageSource, Subject};
 use crate::map::MapError;
 use crate::plant::{Plant, PlantState, Positioner, PositionerKind, Surroundings, Walls};
 use crate::policy::PolicyError;

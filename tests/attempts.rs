@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use ferry::boards::{Boards, Signature};
 use ferry::camera::Camera;
-use ferry::challenge::{Attempt, Boards, Challenge, Run, Signature};
+use ferry::challenge::{Attempt, Challenge, Run};
 use ferry::geometry::Point2;
 use ferry::trial::{Case, Input, Source, Timed, Trial};
 use serde_json::{Value, json};
@@ -53,7 +54,7 @@ fn attempt(challenge: &Challenge, camera: &mut Camera) -> (Attempt, Run) {
 /// Puts an attempt at a challenge on its board, and returns it.
 fn keep(data: &Path, name: &str, player: &str, class: Option<&str>, forge: &dyn Fn(&mut Attempt)) -> Attempt {
     let challenge = Challenge::of(name.parse().unwrap()).unwrap();
-    let mut camera = challenge.arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), challenge.arena.static_scene()).unwrap();
     let (mut attempt, run) = attempt(&challenge, &mut camera);
     forge(&mut attempt);
     let at = String::from("2026-11-26T12:00:00Z");

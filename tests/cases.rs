@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use ferry::camera::Camera;
 use ferry::trial::{Arena, Case};
 use serde_json::{Value, json};
 
@@ -17,7 +18,7 @@ fn kept() -> Vec<std::path::PathBuf> {
 
 fn run(case: &Case) -> ferry::trial::CaseOutcome {
     let arena = case.arena().unwrap();
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     case.run(&arena, &mut camera, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
@@ -66,7 +67,7 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
     let mut at_401 = None;
     let arena = Arena::open("posts").unwrap();
     let outcome = case
-        .run(&arena, &mut arena.camera(&gpu()).unwrap(), &mut |record| {
+        .run(&arena, &mut Camera::of(&gpu(), arena.static_scene()).unwrap(), &mut |record| {
             if record.tick == 401 {
                 at_401 = Some(format!("{:016x}", record.world.total()));
             }

@@ -1,5 +1,6 @@
 //! Challenges over HTTP and the WebSocket: an attempt is played in real time, judged, and put on the board.
 
+use ferry::camera::Camera;
 use ferry::challenge::Challenge;
 use ferry::geometry::Point2;
 use ferry::scenario::ControllerName;
@@ -13,7 +14,7 @@ const AHEAD: usize = 4;
 
 /// Follows the way of ERRT's tool until the delivery; returns the last state.
 async fn play(browser: &mut Browser, challenge: &Challenge) -> Value {
-    let mut camera = challenge.arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), challenge.arena.static_scene()).unwrap();
     let way = challenge.ghost(ControllerName::Errt, &mut camera).unwrap().trace.samples;
     browser.send(json!({"type": "play_challenge", "challenge": challenge.name.to_string()})).await;
     browser.until("the scene", |m| m["type"] == "scene" && m["challenge"] == challenge.name.to_string()).await;

@@ -1,5 +1,6 @@
 //! Scripted disturbances: kicks, pushes, displacements, dropouts; and trials without an arm.
 
+use ferry::camera::Camera;
 use ferry::geometry::Point2;
 use ferry::plant::PositionerKind;
 use ferry::scenario::{Disturbance, Parameters, Scenario, Scripted, When};
@@ -16,7 +17,7 @@ fn scripted(at: When, disturbance: Disturbance) -> Scenario {
 
 fn run(scenario: Scenario, ticks: usize) -> Vec<TickRecord> {
     let arena = Arena::open(&scenario.map).unwrap();
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trial = Trial::new(scenario, arena).unwrap();
     (0..ticks).map(|_| trial.tick(Source::Camera(&mut camera)).unwrap()).collect()
 }

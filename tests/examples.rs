@@ -13,7 +13,7 @@ use crate::support::gpu;
 
 fn run(scenario: Scenario, arena: &Arc<Arena>) -> (Episode, String) {
     let venue = Venue::of(arena.clone());
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trace = Trace::of(&arena.map, &scenario);
     let watch = &mut |record: &TickRecord| {
         trace.add(record);
@@ -59,7 +59,7 @@ fn disturbances_come_at_the_steps_of_the_papers_figures() {
     for (name, steps) in [("example-3-steps", &[72, 90][..]), ("example-rl-figure", &[29, 98, 154])] {
         let scenario = Shipped::open(name).unwrap().scenario;
         let arena = Arena::open(&scenario.map).unwrap();
-        let mut camera = arena.camera(&gpu()).unwrap();
+        let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let mut trial = Trial::new(scenario, arena).unwrap();
         let (mut struck, mut last) = (Vec::new(), None::<Moment>);
         while last.as_ref().is_none_or(|moment| !moment.phase.is_final()) {
@@ -124,9 +124,9 @@ fn across(arena: &Arc<Arena>, camera: &mut Camera) -> (Phase, u32) {
 #[test]
 fn a_detour_is_found_and_a_walled_off_goal_is_reported() {
     let open = room(true);
-    assert_eq!(across(&open, &mut open.camera(&gpu()).unwrap()).0, Phase::Delivered);
+    assert_eq!(across(&open, &mut Camera::of(&gpu(), open.static_scene()).unwrap()).0, Phase::Delivered);
     let closed = room(false);
-    let (phase, steps) = across(&closed, &mut closed.camera(&gpu()).unwrap());
+    let (phase, steps) = across(&closed, &mut Camera::of(&gpu(), closed.static_scene()).unwrap());
     assert_eq!(phase, Phase::Stopped(StopReason::WalledOff));
     // Both ends of the wall must be observed, not more.
     assert!((10..120).contains(&steps), "{steps}");
@@ -135,7 +135,7 @@ fn a_detour_is_found_and_a_walled_off_goal_is_reported() {
 #[test]
 fn a_planner_restored_during_a_search_finds_the_same_path() {
     let arena = Arena::open("colon-folds").unwrap();
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut scenario = Scenario {
         start_m: Some([0.101, -0.255].into()),
         goal_m: Some([0.085, -0.402].into()),

@@ -76,7 +76,7 @@ fn subject() -> Subject {
 fn camera(gpu: &Arc<Gpu>, quality: Quality) -> Camera {
     let arena = Arena::open("colon").unwrap();
     assert!(arena.map.is_free(Point2::new(0.06, -0.475)));
-    arena.camera(gpu).unwrap().with_quality(quality)
+    Camera::of(gpu, arena.static_scene()).unwrap().with_quality(quality)
 }
 
 fn read(name: &str) -> Picture {

@@ -3,16 +3,17 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-const FLOORS: [&[&str]; 13] = [
+const FLOORS: [&[&str]; 14] = [
     &["geometry", "image", "files", "faults"],
     &["robot", "magnetics", "map"],
     &["plant"],
-    &["scenario", "camera", "tracking", "perception"],
-    &["policy", "jobs", "export"],
+    &["scenario", "tracking", "perception"],
+    &["policy"],
     &["control"],
     &["trial"],
-    &["challenge", "program", "ur"],
-    &["learn", "evaluate", "session"],
+    &["challenge", "program", "ur", "camera"],
+    &["jobs", "export"],
+    &["learn", "evaluate", "session", "boards"],
     &["recovery"],
     &["recording", "protocol"],
     &["http", "robot_client", "robot_server"],

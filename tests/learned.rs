@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use ferry::camera::Camera;
 use ferry::evaluate::{Cell, Experiment, Manner, Venue, Watch, run, unrecorded};
 use ferry::map::Map;
 use ferry::perception::{Observation, Percept};
@@ -82,7 +83,7 @@ fn the_bead_in_the_picture_changes_few_decisions() {
     const PLACES: usize = 300;
     for (map, name) in [("colon", "colon"), ("posts", "general")] {
         let (arena, policy) = (Arena::open(map).unwrap(), Policy::shipped(name).unwrap());
-        let mut camera = arena.camera(&gpu()).unwrap();
+        let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let mut rng = ChaCha8Rng::seed_from_u64(8);
         let mut alike = 0;
         for _ in 0..PLACES {

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use ferry::camera::Camera;
 use ferry::control::Refusal;
 use ferry::evaluate::{Venue, episode};
 use ferry::geometry::{Point2, Vector2};
@@ -35,7 +36,7 @@ fn places(map: &str, count: usize) -> Vec<Point2<f64>> {
 #[test]
 fn the_obstacle_patch_and_every_step_are_visible_and_the_magnet_is_in_the_picture() {
     for map in ["colon", "posts"] {
-        let mut camera = Arena::open(map).unwrap().camera(&gpu()).unwrap();
+        let mut camera = Camera::of(&gpu(), Arena::open(map).unwrap().static_scene()).unwrap();
         for place in places(map, 40) {
             let trial = idle(map, &realistic(), place);
             let tool_m = trial.tool_m().xy();
@@ -59,7 +60,7 @@ fn the_obstacle_patch_and_every_step_are_visible_and_the_magnet_is_in_the_pictur
 fn what_the_magnet_hides_is_neither_free_nor_wall() {
     for map in ["colon", "posts"] {
         let arena = Arena::open(map).unwrap();
-        let mut camera = arena.camera(&gpu()).unwrap();
+        let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let parameters = realistic();
         let spread = wall_spread(parameters.camera_height_m, ferry::map::WALL_HEIGHT_M);
         // The magnet hides what is to the left; there it must be in the workspace.
@@ -94,7 +95,7 @@ fn what_the_magnet_hides_is_neither_free_nor_wall() {
 #[test]
 fn the_networks_image_does_not_depend_on_the_mount_unless_it_is_not_corrected() {
     let arena = Arena::open("colon").unwrap();
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut image = |parameters: &Parameters, place: Point2<f64>| {
         let trial = idle("colon", parameters, place);
         trial.observe(&mut camera).unwrap().observation().channel(0).pixels
@@ -126,7 +127,7 @@ fn a_camera_above_the_magnet_admits_no_step() {
         ..Scenario::idle("open", 1)
     };
     let arena = Arena::open("open").unwrap();
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trial = Trial::new(scenario, arena).unwrap();
     let start_m = trial.tool_m();
     let mut refusals = Vec::new();
@@ -151,7 +152,7 @@ fn all_three_controllers_work_under_the_realistic_mount() {
                     let arena = &venue.arena;
                     let random = arena.random(map, controller, 0, 4, index).unwrap();
                     let scenario = Scenario { parameters: parameters.clone(), ..random };
-                    let mut camera = arena.camera(&gpu()).unwrap();
+                    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
                     let go_on = &mut |_: &_| ControlFlow::Continue(());
                     episode(scenario, &venue, &mut camera, &mut Nowhere::default(), go_on).unwrap().delivered
                 };

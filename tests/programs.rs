@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use ferry::camera::ImageSource;
+use ferry::camera::{Camera, ImageSource};
 use ferry::geometry::Point2;
+use ferry::policy::Shipped;
 use ferry::scenario::{ControllerName, Scenario};
 use ferry::trial::{
     Arena, Beginning, Deciding, Entry, Input, InputError, InputLog, LoggedBeginning, LoggedTick, Phase,
@@ -50,7 +51,7 @@ fn run(
 #[test]
 fn a_program_delivers_and_its_log_replays_without_it() {
     let arena = Arena::open("posts").unwrap();
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trial = Trial::new(scenario(&arena), arena.clone()).unwrap();
     let begun = Entry::Begin(Box::new(LoggedBeginning::of(&trial, Beginning::SetUp)));
     let mut asked = 0;
@@ -70,15 +71,16 @@ fn a_program_delivers_and_its_log_replays_without_it() {
     let entries = std::iter::once(begun).chain(ticks.into_iter().map(Entry::Tick)).collect();
     let log = InputLog { entries, torn_bytes: 0 };
     replay(&log, None, &mut |_| {}).unwrap();
-    let mut make_camera = |arena: &Arena| Ok(Box::new(arena.camera(&gpu())?) as Box<dyn ImageSource>);
-    let deciding = Deciding { make_camera: &mut make_camera, policies: Arc::default() };
+    let mut make_camera =
+        |arena: &Arena| Ok(Box::new(Camera::of(&gpu(), arena.static_scene())?) as Box<dyn ImageSource>);
+    let deciding = Deciding { make_camera: &mut make_camera, policies: Arc::new(Shipped) };
     replay(&log, Some(deciding), &mut |_| {}).unwrap();
 }
 
 #[test]
 fn without_a_usable_answer_the_arm_holds() {
     let arena = Arena::open("posts").unwrap();
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut refusal_after = |answer: Option<Input>| {
         let mut trial = Trial::new(scenario(&arena), arena.clone()).unwrap();
         let seen = trial.see(&mut camera).unwrap();

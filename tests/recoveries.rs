@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
+use ferry::camera::Camera;
 use ferry::trial::{Case, CaseOutcome};
 
 use crate::support::{Browser, Laboratory, ferry, files, gpu};
@@ -44,7 +45,8 @@ async fn under_way(lab: &Laboratory) -> Browser {
 
 fn outcome(case: &Case) -> CaseOutcome {
     let arena = case.arena().unwrap();
-    case.run(&arena, &mut arena.camera(&gpu()).unwrap(), &mut |_| ControlFlow::Continue(())).unwrap()
+    case.run(&arena, &mut Camera::of(&gpu(), arena.static_scene()).unwrap(), &mut |_| ControlFlow::Continue(()))
+        .unwrap()
 }
 
 #[tokio::test(flavor = "multi_thread")]

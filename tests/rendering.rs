@@ -70,7 +70,7 @@ fn dark_pixels_are_walls(gpu: &Arc<Gpu>, seed: u64) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     for name in Map::shipped_names() {
         let arena = Arena::open(&name).unwrap();
-        let mut camera = arena.camera(gpu).unwrap();
+        let mut camera = Camera::of(gpu, arena.static_scene()).unwrap();
         for mount in mounts(&mut rng) {
             let tool = anywhere(arena.map.workspace(), &mut rng);
             let frame = camera.capture(&subject(tool, NOWHERE, mount)).unwrap();
@@ -101,7 +101,7 @@ fn brightness_tells_wall_from_floor_wherever_the_bead_lies() {
     let mut seen = 0;
     for name in Map::shipped_names() {
         let arena = Arena::open(&name).unwrap();
-        let mut camera = arena.camera(&gpu()).unwrap();
+        let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let points: Vec<_> = arena.space.points().collect();
         for _ in 0..20 {
             let bead = points[rng.random_range(0..points.len())];

@@ -47,7 +47,7 @@ fn perception_gives_the_survey_that_training_has() {
         let maze = ferry::map::Maze::generate(family, seed).unwrap();
         let lattice = MazeLattice::of(&maze.map);
         let arena = Arena::of(maze.map);
-        let mut camera = arena.camera(&gpu()).unwrap();
+        let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         for _ in 0..8 {
             let tool = loop {
                 let cell = rng.random_range(0..lattice.count());
@@ -86,7 +86,7 @@ fn the_explorer_decides_by_the_obstacle_map() {
     let arena = Arena::open("posts").unwrap();
     let policy = Policy::shipped("explorer").unwrap();
     let (tool_m, goal_m) = (Point2::new(-0.045, -0.375), Point2::new(0.205, -0.375));
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let percept = percept_above(&arena, &mut camera, tool_m);
     let parameters = Parameters::default();
     let judged = |known: &ObstacleMap| {
@@ -108,7 +108,7 @@ fn a_shortcut_leads_over_observed_cells_only() {
     let arena = Arena::open("open").unwrap();
     let policy = Policy::shipped("explorer").unwrap();
     let (tool_m, goal_m) = (Point2::new(-0.045, -0.425), Point2::new(0.055, -0.325));
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let percept = percept_above(&arena, &mut camera, tool_m);
     let step_m = |known: &ObstacleMap, parameters: &Parameters| {
         let policy = Some(&*policy);

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use ferry::camera::Camera;
 use ferry::control::Refusal;
 use ferry::control::switching::Mode;
 use ferry::evaluate::{Venue, episode};
@@ -30,7 +31,7 @@ struct Loss {
 }
 
 fn carry(scenario: Scenario, venue: &Venue) -> Loss {
-    let mut camera = venue.arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), venue.arena.static_scene()).unwrap();
     let threshold_m = scenario.parameters.threshold_m;
     let (mut false_losses, mut last) = (0, None::<Moment>);
     let ended = episode(scenario, venue, &mut camera, &mut Nowhere::default(), &mut |record| {
@@ -128,7 +129,7 @@ fn a_lost_tracker_costs_only_time_under_the_realistic_mount_when_the_arm_hides_t
 
 fn run(scenario: Scenario, is_over: impl Fn(&TickRecord) -> bool) -> Vec<TickRecord> {
     let arena = Arena::open(&scenario.map).unwrap();
-    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trial = Trial::new(scenario, arena).unwrap();
     let mut records = Vec::new();
     while records.last().is_none_or(|last| !is_over(last)) {

@@ -281,7 +281,7 @@ impl Mazes {
     }
 
     fn lane(&self, trial: Trial, gpu: &Arc<Gpu>) -> PyResult<Lane> {
-        let mut camera = self.arena.camera(gpu).map_err(failed)?;
+        let mut camera = Camera::of(gpu, self.arena.static_scene()).map_err(failed)?;
         let (seen, question) = look(&trial, &mut camera)?;
         Ok(Lane { trial, camera: Arc::new(Mutex::new(camera)), seen, question })
     }

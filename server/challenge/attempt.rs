@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::score::Referee;
 use super::{Challenge, Score, TICKS_MOST, TIME_LIMIT_S, Trace};
-use crate::camera::ImageSource;
+use crate::image::ImageSource;
 use crate::trial::{Case, Input, InputError, Source, TickRecord, Timed, Trial, TrialError};
 
 /// Largest number of inputs: sixty a second until the time limit, and as many again.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Challenge, Referee, Score, TICKS_MOST, Trace};
-use crate::camera::ImageSource;
+use crate::image::ImageSource;
 use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Source, Trial, TrialError};
 

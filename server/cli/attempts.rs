@@ -10,7 +10,9 @@ use anyhow::Context;
 
 use self::episode::Episode;
 use self::minari::{DATA_SET, DataSet};
-use crate::challenge::{AttemptError, Boards, Challenge, ChallengeName, Kept};
+use crate::boards::{Boards, Kept};
+use crate::camera::Camera;
+use crate::challenge::{AttemptError, Challenge, ChallengeName};
 
 #[derive(clap::Subcommand)]
 pub enum Command {
@@ -82,7 +84,7 @@ fn export(boards: &[Board], data_set: &mut DataSet) -> anyhow::Result<usize> {
     let mut left_out = 0;
     for (name, kept) in boards {
         let challenge = Challenge::of(name.clone())?;
-        let mut camera = challenge.arena.camera(&gpu)?;
+        let mut camera = Camera::of(&gpu, challenge.arena.static_scene())?;
         for kept in kept {
             match Episode::of(&challenge, kept, &mut camera) {
                 Ok(episode) => data_set.add(&episode).context("--out")?,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use crate::camera::Subject;
+use crate::camera::{Camera, Subject};
 use crate::evaluate::Trace;
 use crate::files::read_at_most;
 use crate::geometry::{Point2, Point3};
@@ -91,7 +91,7 @@ fn trajectory(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     scenario.parameters = scenario.parameters.with(&arguments.set).context("--set")?;
     let scenario = case.scenario.clone();
     let arena = case.arena()?;
-    let mut camera = arena.camera(&super::open_gpu()?)?;
+    let mut camera = Camera::of(&super::open_gpu()?, arena.static_scene())?;
     let (mut trace, mut tally) = (Trace::of(&arena.map, &scenario), Tally::default());
     let outcome = case.run(&arena, &mut camera, &mut |record| {
         trace.add(record);
@@ -131,7 +131,7 @@ fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
         mount: parameters.camera_mount(),
         moved_walls: around.bands(walls.as_ref(), 0, bead).map(Arc::from),
     };
-    let mut camera = arena.camera(&super::open_gpu()?)?;
+    let mut camera = Camera::of(&super::open_gpu()?, arena.static_scene())?;
     let picture = match arguments.view {
         View::Camera => camera.capture(&subject)?.picture,
         View::Scene => camera.scene(&subject, 1280, 720)?,

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use crate::camera::{CameraError, ImageSource};
-use crate::policy::Library;
+use crate::camera::{Camera, CameraError, ImageSource};
+use crate::learn::Library;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::trial::{Arena, Deciding, Entry, InputLog, replay};
 
@@ -39,7 +39,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let gpu = if arguments.camera { Some(super::open_gpu()?) } else { None };
     let mut cameras = |arena: &Arena| -> Result<Box<dyn ImageSource>, CameraError> {
         let gpu = gpu.as_ref().expect("the adapter is open if cameras are used");
-        Ok(Box::new(arena.camera(gpu)?))
+        Ok(Box::new(Camera::of(gpu, arena.static_scene())?))
     };
     let deciding = arguments.camera.then(|| {
         let policies = Library::in_folder(arguments.data.join("policies"), || ());

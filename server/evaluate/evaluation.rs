@@ -7,7 +7,7 @@ use super::variation::applied;
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
 use crate::jobs::Life;
 use crate::map::Map;
-use crate::policy;
+use crate::policy::Policies;
 use crate::program::Program;
 use crate::scenario::{Parameters, SetError};
 
@@ -19,7 +19,7 @@ pub struct Evaluation {
     pub cells: Vec<Cell>,
     /// The maps of the query.
     maps: Vec<Map>,
-    pub(super) policies: Arc<policy::Library>,
+    pub(super) policies: Arc<dyn Policies>,
     /// The program of the query.
     program: Option<Arc<Program>>,
     pub life: Life<Progress>,
@@ -76,7 +76,7 @@ impl Evaluation {
         query: EvaluationQuery,
         cells: Vec<Cell>,
         maps: Vec<Map>,
-        policies: Arc<policy::Library>,
+        policies: Arc<dyn Policies>,
         program: Option<Arc<Program>>,
     ) -> Arc<Self> {
         let progress = Progress { cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };

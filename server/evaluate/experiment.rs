@@ -49,7 +49,7 @@ impl Venue {
     /// Takes a camera for this map; [`Self::keep`] returns it.
     pub(crate) fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
         let kept = self.cameras.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        kept.map_or_else(|| self.arena.camera(gpu), Ok)
+        kept.map_or_else(|| Camera::of(gpu, self.arena.static_scene()), Ok)
     }
 
     pub(crate) fn keep(&self, camera: Camera) {

@@ -63,6 +63,7 @@ mod tests {
     use crate::evaluate::{Cell, EvaluationQuery};
     use crate::jobs::Job;
     use crate::map::Map;
+    use crate::policy::Shipped;
     use crate::scenario::{ControllerName, RlPolicy};
 
     fn evaluation(map: &str) -> Arc<Evaluation> {
@@ -84,7 +85,7 @@ mod tests {
             vary: Vec::new(),
         };
         let maps = Map::shipped(map).into_iter().collect();
-        Evaluation::new("a test".into(), query, vec![cell], maps, Arc::default(), None)
+        Evaluation::new("a test".into(), query, vec![cell], maps, Arc::new(Shipped), None)
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::camera::Gpu;
+use crate::camera::{Camera, Gpu};
 use crate::control::CONTROL_PERIOD_S;
 use crate::evaluate::EvaluateError;
 use crate::geometry::{Point2, Point3, Vector2};
@@ -206,7 +206,7 @@ impl Course {
             ..Scenario::idle("open", self.seed)
         };
         let mut trial = Trial::new(scenario, arena.clone())?;
-        let mut camera = arena.camera(gpu).map_err(crate::trial::TrialError::from)?;
+        let mut camera = Camera::of(gpu, arena.static_scene()).map_err(crate::trial::TrialError::from)?;
         let lag_m = if self.aim == Aim::Point { 0.0 } else { self.lag_m() };
         let lap_s = self.length_m() / self.speed_m_s;
         let (mut squares, mut across_squares, mut most_m, mut scored): (f64, f64, f64, u32) = (0.0, 0.0, 0.0, 0);

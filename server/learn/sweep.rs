@@ -95,7 +95,7 @@ impl Sweep {
                 |kept, row| {
                     let camera = match kept {
                         Some(camera) => camera,
-                        None => kept.insert(arena.camera(gpu)?),
+                        None => kept.insert(Camera::of(gpu, arena.static_scene())?),
                     };
                     (0..columns)
                         .map(|column| {
@@ -325,7 +325,7 @@ mod tests {
         let open = || Sweep::open(&arena, &gpu, folder.path(), STEP_M, &[], &progress).unwrap();
         let sweep = open();
         assert_eq!((sweep.columns, sweep.rows, taken.load(Ordering::Relaxed)), (12, 10, 120));
-        let mut camera = arena.camera(&gpu).unwrap();
+        let mut camera = Camera::of(&gpu, arena.static_scene()).unwrap();
         for (column, row) in [(0, 0), (5, 5), (11, 9)] {
             let tool = center(arena.map.workspace(), STEP_M, column, row);
             let view = take_view(&arena, &mut camera, tool, None).unwrap();

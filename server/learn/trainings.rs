@@ -12,11 +12,12 @@ mod training;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::library::Library;
 use super::sweep::{STEP_M, cells};
 use crate::jobs::{Queue, QueueError};
-use crate::map::{Map, READER};
+use crate::map::{self, Map, READER};
 use crate::policy::Policy;
-use crate::trial::{Arena, Catalog};
+use crate::trial::Arena;
 use folder::Record;
 
 pub use frame::{Cells, Frame, Trail};
@@ -47,7 +48,8 @@ pub struct Trainings {
     /// Folder of the maps' images.
     sweeps: PathBuf,
     queue: Arc<Queue>,
-    catalog: Catalog,
+    maps: Arc<map::Library>,
+    policies: Arc<Library>,
     kept: Mutex<Kept>,
 }
 
@@ -61,7 +63,13 @@ struct Kept {
 
 impl Trainings {
     /// The trainings kept in a folder. Those that had not ended wait in the queue again.
-    pub fn in_folder(folder: PathBuf, sweeps: PathBuf, queue: Arc<Queue>, catalog: Catalog) -> Self {
+    pub fn in_folder(
+        folder: PathBuf,
+        sweeps: PathBuf,
+        queue: Arc<Queue>,
+        maps: Arc<map::Library>,
+        policies: Arc<Library>,
+    ) -> Self {
         let mut numbers: Vec<u64> = std::fs::read_dir(&folder)
             .into_iter()
             .flatten()
@@ -69,7 +77,7 @@ impl Trainings {
             .collect();
         numbers.sort_unstable();
         let last = numbers.last().copied().unwrap_or(0);
-        let trainings = Self { folder, sweeps, queue, catalog, kept: Mutex::default() };
+        let trainings = Self { folder, sweeps, queue, maps, policies, kept: Mutex::default() };
         let restored: Vec<_> = numbers.into_iter().filter_map(|number| trainings.restore(number)).collect();
         for training in &restored {
             let stage = training.status().stage;
@@ -104,7 +112,7 @@ impl Trainings {
 
     fn training(&self, id: String, record: Record, map: Map, history: (Option<Cells>, Vec<Frame>)) -> Arc<Training> {
         let folders = [self.folder.join(&id), self.sweeps.clone()];
-        Training::new(id, record, map, folders, self.catalog.policies.clone(), history)
+        Training::new(id, record, map, folders, self.policies.clone(), history)
     }
 
     /// Adds a training.
@@ -112,13 +120,13 @@ impl Trainings {
     /// # Errors
     /// [`SubmitTrainingError`]; then nothing has changed.
     pub fn submit(&self, query: TrainingQuery) -> Result<Arc<Training>, SubmitTrainingError> {
-        let map = self.catalog.maps.find(&query.map).map_err(QueryError::from)?;
+        let map = self.maps.find(&query.map).map_err(QueryError::from)?;
         let (columns, rows) = cells(&Arena::of(map.clone()), STEP_M);
         query.check_map(&map, columns * rows)?;
         let start = query.start_from.as_ref().map(|name| self.start(name)).transpose()?;
         let manifest = start.as_deref().map(Policy::from_bytes).transpose().map_err(QueryError::from)?;
         let recipe = query.recipe(manifest.as_ref().map(Policy::manifest))?;
-        self.catalog.policies.check(&query.name).map_err(QueryError::from)?;
+        self.policies.check(&query.name).map_err(QueryError::from)?;
         let mut kept = self.lock();
         if kept.trainings.iter().any(|training| training.holds(&query.name)) {
             return Err(QueryError::Taken { name: query.name }.into());
@@ -152,7 +160,7 @@ impl Trainings {
     fn start(&self, name: &str) -> Result<Vec<u8>, QueryError> {
         let unknown = || Policy::shipped(name).expect_err("a name that cannot be parsed is not that of a policy");
         let asked = name.parse().map_err(|_| unknown())?;
-        Ok(self.catalog.policies.bytes(&asked)?)
+        Ok(self.policies.bytes(&asked)?)
     }
 
     pub fn find(&self, id: &str) -> Option<Arc<Training>> {

@@ -294,5 +294,16 @@ fn read(file: &SafeTensors<'_>, spec: &TensorSpec) -> Result<Tensor, PolicyError
     Ok(Tensor::from_vec(values, spec.shape.clone(), &Device::Cpu)?)
 }
 
+/// The weights in a policy's file, by the names of its tensors.
+///
+/// # Errors
+/// [`PolicyError`], as [`Policy::from_bytes`].
+pub fn weights(bytes: &[u8]) -> Result<HashMap<String, Vec<f32>>, PolicyError> {
+    Policy::from_bytes(bytes)?;
+    let file = safetensors::SafeTensors::deserialize(bytes)?;
+    let floats = |bytes: &[u8]| bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+    Ok(file.tensors().into_iter().map(|(name, view)| (name, floats(view.data()))).collect())
+}
+
 #[cfg(test)]
 mod tests;

@@ -7,8 +7,9 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::numbers::Numbers2;
+use crate::boards::{Entry, Signature};
 use crate::challenge::{
-    self, Attempt, Challenge, ChallengeName, Difficulty, Entry, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
+    Attempt, Challenge, ChallengeName, Difficulty, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
 };
 use crate::geometry::Point2;
 use crate::scenario::ControllerName;
@@ -226,7 +227,7 @@ impl From<AttemptMessage> for Attempt {
 
 impl From<&Entry> for BoardEntry {
     fn from(entry: &Entry) -> Self {
-        let challenge::Signature { player, class, at } = entry.signature.clone();
+        let Signature { player, class, at } = entry.signature.clone();
         Self { player, class, at, score: entry.score.into(), total_s: entry.score.total_s() }
     }
 }

@@ -6,7 +6,8 @@ use utoipa::ToSchema;
 
 use super::trainings::{Examination, TrainingPoint, TrainingQuery};
 use crate::learn;
-use crate::policy::{Added, Library, Manifest, Policy};
+use crate::learn::{Added, Library};
+use crate::policy::{Manifest, Policies as _, Policy};
 use crate::scenario::RlPolicy;
 
 /// How a policy was trained on this server.
@@ -100,7 +101,7 @@ impl Policies {
             let policy = library.find(&reference).ok()?;
             Some(PolicySummary::of(name, &reference, &policy))
         });
-        let added = library.added();
+        let added = library.all();
         Self { policies: shipped.chain(added.iter().map(PolicySummary::from)).collect() }
     }
 }

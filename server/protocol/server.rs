@@ -306,7 +306,7 @@ impl From<&Scenery> for SceneMessage {
         Self {
             map: map.name().to_owned(),
             maps: scenery.catalog.maps.names(),
-            policies: scenery.catalog.policies.added().iter().map(|one| one.reference().to_string()).collect(),
+            policies: scenery.catalog.policies.added().iter().map(ToString::to_string).collect(),
             scenario: scenery.scenario.clone(),
             positioner: scenery.positioner,
             controllers: ControllerName::SELECTABLE.to_vec(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Recovery, RecoveryError, RecoveryQuery, Start};
-use crate::camera::{CameraError, Gpu};
+use crate::camera::{Camera, CameraError, Gpu};
 use crate::map::MapError;
 use crate::program::Program;
 use crate::robot::ur5::SERVO_PERIOD_S;
@@ -56,7 +56,7 @@ impl RecoveryPlan {
         let case = self.case()?;
         let arena = case.arena()?;
         let tick = (self.at_s / SERVO_PERIOD_S) as u64;
-        let moment = case.after(tick, &arena, &mut arena.camera(gpu)?)?;
+        let moment = case.after(tick, &arena, &mut Camera::of(gpu, arena.static_scene())?)?;
         let told: Vec<Timed> = case.inputs.into_iter().filter(|timed| timed.tick <= tick).collect();
         let start = Start { origin: Origin::of(&moment), told: Some(told), program: self.program };
         Ok(Recovery::new(self.query, start)?)

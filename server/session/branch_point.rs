@@ -86,7 +86,7 @@ impl BranchPoint {
 
     /// A separate camera.
     pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, TrialError> {
-        Ok(self.origin.arena.camera(gpu)?)
+        Ok(Camera::of(gpu, self.origin.arena.static_scene())?)
     }
 
     /// Whether a goal is set at the moment or before [`Self::until_tick`].

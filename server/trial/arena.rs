@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::camera::{Camera, CameraError, Gpu, StaticScene, VIEW_PX};
 use crate::control::Refusal;
 use crate::control::limits::Limits;
 use crate::geometry::{Point2, Point3};
+use crate::image::StaticScene;
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
 use crate::plant::{LazyLumen, Lumen, Positioner, PositionerKind, Surroundings, TOOL_LENGTH_M};
-use crate::policy::{Library, Policy, PolicyError};
+use crate::policy::{Policies, Policy, PolicyError, Shipped};
 use crate::robot;
 use crate::scenario::{CLEARANCE_M, ControllerName, Ground, Parameters, RandomTrialError, RlPolicy, Scenario};
 
@@ -22,7 +22,7 @@ pub struct Arena {
     /// A policy that replaces all others.
     pub policy: Option<Arc<Policy>>,
     /// The policies that can be selected.
-    policies: Arc<Library>,
+    policies: Arc<dyn Policies>,
 }
 
 impl Arena {
@@ -33,11 +33,11 @@ impl Arena {
 
     /// A map with the shipped policies.
     pub fn of(map: Map) -> Arc<Self> {
-        Self::with_policies(map, Arc::default())
+        Self::with_policies(map, Arc::new(Shipped))
     }
 
     /// A map with the policies of a library.
-    pub fn with_policies(map: Map, policies: Arc<Library>) -> Arc<Self> {
+    pub fn with_policies(map: Map, policies: Arc<dyn Policies>) -> Arc<Self> {
         let space = FreeSpace::new(&map, CLEARANCE_M);
         Arc::new(Self { map, space, lumen: LazyLumen::default(), policy: None, policies })
     }
@@ -154,10 +154,9 @@ impl Arena {
         ground.random(controller, disturbances, seed, index)
     }
 
-    /// A camera that looks at this map.
-    pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
+    /// What a camera sees of this map.
+    pub fn static_scene(&self) -> StaticScene<'_> {
         let map = &self.map;
-        let static_scene = StaticScene { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
-        Camera::new(gpu.clone(), &static_scene, VIEW_PX)
+        StaticScene { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M }
     }
 }

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{Arena, Counters, Input, InputError, LoggedMap, Source, TickRecord, Trial, TrialError};
-use crate::camera::ImageSource;
 use crate::files::read_at_most;
+use crate::image::ImageSource;
 use crate::map::MapError;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{Scenario, Shipped, ShippedError};

@@ -4,14 +4,20 @@ use std::sync::Arc;
 
 use super::{Arena, TrialError};
 use crate::map::{self, Map};
-use crate::policy;
+use crate::policy::{Policies, Shipped};
 use crate::scenario::Parameters;
 
 /// The maps and policies of a server.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Catalog {
     pub maps: Arc<map::Library>,
-    pub policies: Arc<policy::Library>,
+    pub policies: Arc<dyn Policies>,
+}
+
+impl Default for Catalog {
+    fn default() -> Self {
+        Self { maps: Arc::default(), policies: Arc::new(Shipped) }
+    }
 }
 
 impl Catalog {

@@ -318,6 +318,7 @@ impl Trial {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::EmptyFloor;
     use crate::scenario::Scenario;
     use crate::trial::{Arena, Source};
 
@@ -338,7 +339,7 @@ mod tests {
             assert_eq!(held.apply(last), Err(InputError::TooManyWait), "it holds nothing any more");
         }
         trial.apply(Input::Release).unwrap();
-        let mut camera = trial.arena().camera(&crate::camera::Gpu::open(Default::default()).unwrap()).unwrap();
+        let mut camera = EmptyFloor::new();
         assert_eq!(trial.tick(Source::Camera(&mut camera)).unwrap().inputs.len(), WAITING_MOST + 1);
         trial.apply(goal).unwrap();
     }
@@ -356,7 +357,7 @@ mod tests {
         assert_eq!(other.state().world_hash(), before);
 
         let mut trial = begin(ControllerName::You);
-        let mut camera = trial.arena().camera(&crate::camera::Gpu::open(Default::default()).unwrap()).unwrap();
+        let mut camera = EmptyFloor::new();
         let mut run = |trial: &mut Trial, ticks: u32| {
             (0..ticks).for_each(|_| drop(trial.tick(Source::Camera(&mut camera)).unwrap()));
             trial.tool_m().x

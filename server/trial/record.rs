@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use super::state::{Counters, TrialState, WorldHashes};
 use super::{Decision, Event, Input, Motion, Phase, Trial};
-use crate::camera::{CameraError, ImageSource};
 use crate::control::transport::rl::Rl;
 use crate::control::transport::you::{Steering, You};
 use crate::control::transport::{Carrier, Trouble};
 use crate::control::{Refusal, step_is_due, switching};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
+use crate::image::{CameraError, ImageSource};
 use crate::perception::{Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters};
 use crate::plant::{Hand, Load, Plant, Positioner, WallMotion};
 use crate::robot::ur5::SERVO_PERIOD_S;

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use super::entry::{Entry, LoggedBeginning, LoggedTick};
 use super::log::InputLog;
 use super::{Arena, InputError, Source, TickRecord, Trial, TrialError, TrialState, World};
-use crate::camera::{CameraError, ImageSource};
+use crate::image::{CameraError, ImageSource};
 use crate::map::MapError;
-use crate::policy::Library;
+use crate::policy::{Policies, Shipped};
 
 /// Result of a replay without differences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,7 +74,7 @@ pub type MakeCamera<'a> = &'a mut dyn FnMut(&Arena) -> Result<Box<dyn ImageSourc
 pub struct Deciding<'a> {
     pub make_camera: MakeCamera<'a>,
     /// Policies that the trials may have selected.
-    pub policies: Arc<Library>,
+    pub policies: Arc<dyn Policies>,
 }
 
 /// Runs a log again from its decisions. With `deciding`, every decision is made again from the camera images, and
@@ -104,7 +104,7 @@ pub fn replay(
                 if let Some(map) = &beginning.map {
                     let map = map.map().map_err(|error| ReplayError::Map { trial: number, error })?;
                     let policies = deciding.as_ref().map(|deciding| deciding.policies.clone());
-                    arena = Some(Arena::with_policies(map, policies.unwrap_or_default()));
+                    arena = Some(Arena::with_policies(map, policies.unwrap_or_else(|| Arc::new(Shipped))));
                 }
                 // The first entry of a log always contains a map.
                 let Some(arena) = &arena else { continue };

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::Criterion;
-use ferry::camera::{AdapterChoice, Gpu, Quality, Subject};
+use ferry::camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
 use ferry::geometry::{Point2, Point3};
 use ferry::image::CameraMount;
 use ferry::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation, WallMotion};
@@ -34,7 +34,7 @@ pub fn benches(c: &mut Criterion) {
             moved_walls: None,
         }
     };
-    let mut camera = arena.camera(&gpu).unwrap();
+    let mut camera = Camera::of(&gpu, arena.static_scene()).unwrap();
     group.bench_function("controllers' view, 480×480", |b| b.iter(|| black_box(camera.capture(&next()).unwrap())));
     // The same with walls that move, their shape at each frame included.
     let parameters = Parameters { peristalsis_amplitude_m: 0.01, ..Parameters::default() };
@@ -50,7 +50,7 @@ pub fn benches(c: &mut Criterion) {
         });
     });
     for (name, quality) in [("economy", Quality::Economy), ("fine", Quality::Fine)] {
-        let mut camera = arena.camera(&gpu).unwrap().with_quality(quality);
+        let mut camera = Camera::of(&gpu, arena.static_scene()).unwrap().with_quality(quality);
         group.bench_function(format!("scene, 640×360, {name}"), |b| {
             b.iter(|| black_box(camera.scene(&next(), 640, 360).unwrap()));
         });

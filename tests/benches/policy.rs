@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::Criterion;
-use ferry::camera::{AdapterChoice, Gpu, Subject};
+use ferry::camera::{AdapterChoice, Camera, Gpu, Subject};
 use ferry::control::transport::rl::Rl;
 use ferry::control::transport::{Transport, TransportInput};
 use ferry::geometry::Point2;
@@ -24,7 +24,7 @@ const FRAMES: usize = 300;
 const UPDATES: u64 = 100;
 
 fn frames(arena: &Arena, gpu: &std::sync::Arc<Gpu>) -> Vec<(Point2<f64>, CameraFrame)> {
-    let mut camera = arena.camera(gpu).unwrap();
+    let mut camera = Camera::of(gpu, arena.static_scene()).unwrap();
     let space = FreeSpace::new(&arena.map, 0.012);
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let mut look = || {

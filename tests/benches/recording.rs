@@ -28,7 +28,7 @@ fn run_s(arena: &Arc<Arena>, camera: &mut Camera, sink: &mut dyn Sink) -> f64 {
 pub fn benches(_: &mut Criterion) {
     let arena = Arena::open("colon").unwrap();
     let gpu = Gpu::open(AdapterChoice::Auto).expect("a graphics adapter");
-    let mut camera = arena.camera(&gpu).unwrap();
+    let mut camera = Camera::of(&gpu, arena.static_scene()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
     let mut ratios: Vec<f64> = (0..TURNS)

@@ -1,6 +1,6 @@
-use crate::camera::{Camera, Gpu};
 use crate::challenge::{Attempt, AttemptError, Challenge, Difficulty, INPUTS_MOST};
 use crate::geometry::Point2;
+use crate::image::EmptyFloor;
 use crate::map::Map;
 use crate::scenario::{ControllerName, Disturbance, Parameters, Scripted, When};
 use crate::trial::{Case, Expectation, Input, LoggedMap, Source, Timed, Trial};
@@ -9,10 +9,8 @@ use crate::trial::{Case, Expectation, Input, LoggedMap, Source, Timed, Trial};
 const BEAT: u64 = 20;
 const AHEAD_M: f64 = 0.02;
 
-fn challenge(name: &str) -> (Challenge, Camera) {
-    let challenge = Challenge::of(name.parse().unwrap()).unwrap();
-    let camera = challenge.arena.camera(&Gpu::open(Default::default()).unwrap()).unwrap();
-    (challenge, camera)
+fn challenge(name: &str) -> (Challenge, EmptyFloor) {
+    (Challenge::of(name.parse().unwrap()).unwrap(), EmptyFloor::new())
 }
 
 /// The place on the shortest path to the goal that is a little ahead of the tool.
@@ -31,7 +29,7 @@ fn ahead(challenge: &Challenge, trial: &Trial) -> Point2<f64> {
 }
 
 /// An attempt by a hand that knows the path.
-fn attempt(challenge: &Challenge, camera: &mut Camera) -> Attempt {
+fn attempt(challenge: &Challenge, camera: &mut EmptyFloor) -> Attempt {
     let mut trial = Trial::new(challenge.scenario.clone(), challenge.arena.clone()).unwrap();
     let mut inputs = Vec::new();
     while trial.state().world.counters.deliveries == 0 {

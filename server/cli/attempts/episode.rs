@@ -1,7 +1,8 @@
 //! An attempt as an episode: what the camera showed and what the hand did, at each control step.
 
+use crate::boards::Kept;
 use crate::camera::ImageSource;
-use crate::challenge::{AttemptError, Challenge, Kept};
+use crate::challenge::{AttemptError, Challenge};
 use crate::control::Refusal;
 use crate::geometry::{Point2, Vector2};
 use crate::trial::{Decision, Motion, Sight, TickRecord, Trial, TrialError};

@@ -10,10 +10,9 @@ use axum::http::StatusCode;
 use jiff::{Timestamp, Zoned, tz::TimeZone};
 
 use super::sessions::find;
-use crate::camera::{CameraError, Gpu};
-use crate::challenge::{
-    Attempt, AttemptError, BoardError, Boards, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost, Signature,
-};
+use crate::boards::{BoardError, Boards, Signature};
+use crate::camera::{Camera, CameraError, Gpu};
+use crate::challenge::{Attempt, AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{ChallengePath, Path, SessionPath};
@@ -53,7 +52,7 @@ impl Contests {
             None => {
                 let pool = gentle_pool("ghosts")?;
                 let run = |controller| {
-                    let mut camera = challenge.arena.camera(gpu)?;
+                    let mut camera = Camera::of(gpu, challenge.arena.static_scene())?;
                     Ok::<_, NoGhosts>(challenge.ghost(controller, &mut camera)?)
                 };
                 let all =
@@ -203,7 +202,7 @@ pub async fn add(
     }
     let signature = Signature { player, class, at: now() };
     let answer = server.work_at(&server.judge, RUN_WAITS, move |server| {
-        let mut camera = played.challenge.arena.camera(&server.gpu).map_err(Problem::internal)?;
+        let mut camera = Camera::of(&server.gpu, played.challenge.arena.static_scene()).map_err(Problem::internal)?;
         let run = played.challenge.judge(&attempt, &mut camera)?;
         let total_s = run.score.total_s();
         let is_kept = server.contests.boards.add(&name, signature.clone(), &attempt, run)?;

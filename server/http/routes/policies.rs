@@ -12,7 +12,8 @@ use crate::http::body::{WholeBody, attachment, parse};
 use crate::http::path::{Path, PolicyPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::policy::{LibraryError, PolicyError};
+use crate::learn::LibraryError;
+use crate::policy::PolicyError;
 use crate::protocol::{Policies, PolicyName, PolicySummary};
 use crate::scenario::RlPolicy;
 
@@ -20,7 +21,7 @@ use crate::scenario::RlPolicy;
 #[utoipa::path(get, path = "/api/policies", tag = "policies", operation_id = "policies",
     responses((status = 200, body = Policies), Unavailable))]
 pub async fn list(State(server): State<Arc<Server>>) -> Result<Json<Policies>, Problem> {
-    Ok(Json(server.work(|server| Policies::of(&server.catalog.policies)).await?))
+    Ok(Json(server.work(|server| Policies::of(&server.policies)).await?))
 }
 
 /// A policy as a safetensors file, with its manifest in the metadata.
@@ -33,7 +34,7 @@ pub async fn file(
     let unknown = || Problem::not_found("policy", &file);
     let name = file.strip_suffix(".safetensors").ok_or_else(unknown)?;
     let asked: RlPolicy = name.parse().map_err(|_| unknown())?;
-    let read = server.work(move |server| server.catalog.policies.bytes(&asked)).await?;
+    let read = server.work(move |server| server.policies.bytes(&asked)).await?;
     Ok(attachment("application/octet-stream", &file, read?))
 }
 
@@ -47,7 +48,7 @@ pub async fn add(
     Path(PolicyPath { file: name }): Path<PolicyPath>,
     WholeBody(body): WholeBody,
 ) -> Result<Response, Problem> {
-    let added = server.work(move |server| server.catalog.policies.add(&name, &body, None)).await??;
+    let added = server.work(move |server| server.policies.add(&name, &body, None)).await??;
     let location = format!("/api/policies/{}.safetensors", added.name);
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(PolicySummary::from(&added))).into_response())
 }
@@ -62,7 +63,7 @@ pub async fn rename(
     WholeBody(body): WholeBody,
 ) -> Result<Json<PolicySummary>, Problem> {
     let PolicyName { name: new } = parse(&body)?;
-    let renamed = server.work(move |server| server.catalog.policies.rename(&name, &new)).await??;
+    let renamed = server.work(move |server| server.policies.rename(&name, &new)).await??;
     Ok(Json(PolicySummary::from(&renamed)))
 }
 
@@ -74,7 +75,7 @@ pub async fn delete(
     State(server): State<Arc<Server>>,
     Path(PolicyPath { file: name }): Path<PolicyPath>,
 ) -> Result<StatusCode, Problem> {
-    server.work(move |server| server.catalog.policies.remove(&name)).await??;
+    server.work(move |server| server.policies.remove(&name)).await??;
     Ok(StatusCode::NO_CONTENT)
 }
 

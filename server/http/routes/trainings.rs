@@ -15,8 +15,8 @@ use crate::http::path::{FramePath, Path, TrainingPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, Malformed, NotFound, NotUpgraded, OutOfRange, TooMany, Unavailable};
 use crate::http::socket::{Limits, Socket, Upgrade};
+use crate::learn::LibraryError;
 use crate::learn::{QueryError, SubmitTrainingError, Training};
-use crate::policy::LibraryError;
 use crate::protocol::{
     TrainingCells, TrainingFrame, TrainingMessage, TrainingQuery, TrainingReport, TrainingSummary, Trainings,
 };

@@ -3,11 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Point2;
+use crate::learn::LibraryError;
 use crate::learn::error::TrainingError;
 use crate::learn::recipe::{Recipe, RecipeError, RecipeName};
 use crate::learn::terrain::TerrainError;
 use crate::map::{Map, MapError};
-use crate::policy::{Architecture, Fusion, LibraryError, Manifest, PolicyError};
+use crate::policy::{Architecture, Fusion, Manifest, PolicyError};
 
 /// Largest number of updates; at the usual speed, a quarter of an hour.
 const MOST_UPDATES: u64 = 20_000;

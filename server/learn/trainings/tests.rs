@@ -10,7 +10,7 @@ use crate::scenario::RlPolicy;
 /// What a server has.
 struct Laboratory {
     queue: Arc<Queue>,
-    catalog: Catalog,
+    policies: Arc<Library>,
     trainings: Trainings,
 }
 
@@ -18,16 +18,16 @@ impl Laboratory {
     fn in_folder(folder: &Path) -> Self {
         let gpu = Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter");
         let queue = Arc::new(Queue::start(gpu).unwrap());
-        let policies = Arc::new(policy::Library::in_folder(folder.join("policies"), || ()));
-        let catalog = Catalog { policies, ..Catalog::default() };
+        let policies = Arc::new(Library::in_folder(folder.join("policies"), || ()));
         let sweeps = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("target/test-output/sweeps");
-        let trainings = Trainings::in_folder(folder.join("trainings"), sweeps, queue.clone(), catalog.clone());
-        Self { queue, catalog, trainings }
+        let trainings =
+            Trainings::in_folder(folder.join("trainings"), sweeps, queue.clone(), Arc::default(), policies.clone());
+        Self { queue, policies, trainings }
     }
 
     fn bytes(&self, training: &Training) -> Vec<u8> {
         let asked: RlPolicy = training.status().policy.expect("it is done").parse().unwrap();
-        self.catalog.policies.bytes(&asked).unwrap()
+        self.policies.bytes(&asked).unwrap()
     }
 }
 
@@ -126,7 +126,7 @@ fn a_cancelled_training_leaves_nothing_and_frees_its_name() {
     assert!(!first.pause());
     wait(&first, |status| status.stage == TrainingStage::Cancelled);
     assert_eq!(std::fs::read_dir(folder.path().join("trainings")).unwrap().count(), 0);
-    assert!(laboratory.catalog.policies.added().is_empty());
+    assert!(laboratory.policies.all().is_empty());
     let third = laboratory.trainings.submit(query("mine")).unwrap();
     assert_eq!(third.id, "training-3");
     laboratory.queue.close();

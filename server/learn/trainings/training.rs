@@ -16,6 +16,7 @@ use crate::learn::curve::Curve;
 use crate::learn::error::TrainingError;
 use crate::learn::examine::{EXAMINATION_SEED, Marks};
 use crate::learn::goals::GoalSet;
+use crate::learn::library::{Library, LibraryError};
 use crate::learn::point::Point;
 use crate::learn::revision;
 use crate::learn::run::{Run, Saving, drive};
@@ -23,7 +24,7 @@ use crate::learn::sweep::{STEP_M, Sweep, SweepError};
 use crate::learn::terrain::Terrain;
 use crate::learn::training::State;
 use crate::map::{Map, READER};
-use crate::policy::{Library, LibraryError, Policy};
+use crate::policy::Policy;
 use crate::trial::Arena;
 
 /// Interval at which a run is saved.

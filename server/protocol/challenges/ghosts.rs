@@ -5,7 +5,8 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::{AttemptScore, pair};
-use crate::challenge::{Entry, Ghost, Mishap, SAMPLE_TICKS, Trace};
+use crate::boards::Entry;
+use crate::challenge::{Ghost, Mishap, SAMPLE_TICKS, Trace};
 use crate::protocol::numbers::Numbers2;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;

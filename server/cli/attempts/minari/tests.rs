@@ -4,7 +4,8 @@ use arrow_ipc::reader::FileReader;
 
 use super::super::episode::Step;
 use super::*;
-use crate::challenge::{Attempt, Challenge, Kept, Score, Signature, Trace};
+use crate::boards::{Kept, Signature};
+use crate::challenge::{Attempt, Challenge, Score, Trace};
 use crate::geometry::{Point2, Vector2};
 use crate::trial::Case;
 

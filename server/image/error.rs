@@ -1,4 +1,4 @@
-//! Errors of the camera.
+//! Why a camera takes no picture.
 
 #[derive(Debug, thiserror::Error)]
 pub enum CameraError {
@@ -25,7 +25,7 @@ pub enum CameraError {
     /// A camera parameter is out of range.
     #[error("camera {name} is {value}: must be {expected}")]
     Parameter {
-        /// Field of [`CameraMount`](crate::image::CameraMount).
+        /// Field of [`CameraMount`](super::CameraMount).
         name: &'static str,
         value: f64,
         /// The accepted range.
@@ -83,7 +83,7 @@ pub enum CameraError {
         /// The library's message.
         reason: String,
     },
-    /// The device is lost; a new [`Gpu`](super::Gpu) and new cameras are needed.
+    /// The device is lost; a new device and new cameras are needed.
     #[error("the graphics device was lost: {reason}")]
     DeviceLost {
         /// The driver's message.

@@ -1,4 +1,4 @@
-//! The boards: one folder per challenge, one file per person.
+//! The boards of challenges: one folder per challenge, one file per person.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use icu_properties::{CodePointMapData, CodePointSetData};
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use super::{Attempt, ChallengeName, Run, Score, Trace};
+use crate::challenge::{Attempt, ChallengeName, Run, Score, Trace};
 use crate::files::{read_at_most, replace};
 
 /// Entries of a board; a better one takes the place of the last.

@@ -1,12 +1,10 @@
-//! The policies available by name: shipped ones, and those that users have trained or uploaded.
+//! The policies that users have trained or uploaded, in a folder.
 
-use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
-use super::file::MAX_BYTES;
-use super::{Policy, PolicyError};
 use crate::files::{is_name, read_at_most, replace};
+use crate::policy::{MAX_BYTES, Policies, Policy, PolicyError, Shipped};
 use crate::scenario::{AddedPolicy, RlPolicy};
 
 /// Largest number of added policies; each has about a megabyte.
@@ -101,37 +99,8 @@ impl Library {
         Self { folder, added: RwLock::new(added), on_change: OnChange(Some(Box::new(on_change))) }
     }
 
-    /// The policy of a reference other than `auto`; that of an added one is found by its hash, whatever its name is now.
-    ///
-    /// # Errors
-    /// [`PolicyError::Unknown`].
-    pub fn find(&self, asked: &RlPolicy) -> Result<Arc<Policy>, PolicyError> {
-        let RlPolicy::Added(asked) = asked else { return Policy::shipped(&asked.to_string()) };
-        let added = self.read();
-        let is_asked = |one: &&Added| match asked.hash {
-            Some(hash) => one.policy.hash() == hash,
-            None => one.name == asked.name,
-        };
-        let found = added.iter().find(is_asked).map(|one| one.policy.clone());
-        found.ok_or_else(|| {
-            let known = Policy::shipped_names().into_iter().chain(added.iter().map(|one| one.reference().to_string()));
-            PolicyError::Unknown { name: asked.to_string(), known: known.collect() }
-        })
-    }
-
-    /// A reference with the present name and the hash.
-    ///
-    /// # Errors
-    /// [`PolicyError::Unknown`].
-    pub fn resolve(&self, asked: &RlPolicy) -> Result<RlPolicy, PolicyError> {
-        let RlPolicy::Added(_) = asked else { return Ok(asked.clone()) };
-        let hash = self.find(asked)?.hash();
-        let added = self.read();
-        Ok(added.iter().find(|one| one.policy.hash() == hash).map_or_else(|| asked.clone(), Added::reference))
-    }
-
     /// All added policies, oldest first.
-    pub fn added(&self) -> Vec<Added> {
+    pub fn all(&self) -> Vec<Added> {
         self.read().clone()
     }
 
@@ -254,15 +223,31 @@ impl Library {
     }
 }
 
-/// The weights in a policy's file, by the names of its tensors.
-///
-/// # Errors
-/// [`PolicyError`], as [`Policy::from_bytes`].
-pub fn weights(bytes: &[u8]) -> Result<HashMap<String, Vec<f32>>, PolicyError> {
-    Policy::from_bytes(bytes)?;
-    let file = safetensors::SafeTensors::deserialize(bytes)?;
-    let floats = |bytes: &[u8]| bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-    Ok(file.tensors().into_iter().map(|(name, view)| (name, floats(view.data()))).collect())
+impl Policies for Library {
+    fn find(&self, asked: &RlPolicy) -> Result<Arc<Policy>, PolicyError> {
+        let RlPolicy::Added(asked) = asked else { return Shipped.find(asked) };
+        let added = self.read();
+        let is_asked = |one: &&Added| match asked.hash {
+            Some(hash) => one.policy.hash() == hash,
+            None => one.name == asked.name,
+        };
+        let found = added.iter().find(is_asked).map(|one| one.policy.clone());
+        found.ok_or_else(|| {
+            let known = Policy::shipped_names().into_iter().chain(added.iter().map(|one| one.reference().to_string()));
+            PolicyError::Unknown { name: asked.to_string(), known: known.collect() }
+        })
+    }
+
+    fn resolve(&self, asked: &RlPolicy) -> Result<RlPolicy, PolicyError> {
+        let RlPolicy::Added(_) = asked else { return Ok(asked.clone()) };
+        let hash = self.find(asked)?.hash();
+        let added = self.read();
+        Ok(added.iter().find(|one| one.policy.hash() == hash).map_or_else(|| asked.clone(), Added::reference))
+    }
+
+    fn added(&self) -> Vec<RlPolicy> {
+        self.read().iter().map(Added::reference).collect()
+    }
 }
 
 #[cfg(test)]
@@ -290,8 +275,8 @@ mod tests {
         assert_eq!(library.find(&full).unwrap().hash(), added.policy.hash(), "the hash is still the same");
         assert!(library.resolve(&full).unwrap().to_string().starts_with("yours@"));
         let again = Library::in_folder(folder.path().join("policies"), || ());
-        assert_eq!(again.added()[0].name, "yours");
-        assert_eq!(again.added()[0].origin.as_deref(), Some("{}"));
+        assert_eq!(again.all()[0].name, "yours");
+        assert_eq!(again.all()[0].origin.as_deref(), Some("{}"));
         again.remove("yours").unwrap();
         assert!(again.find(&full).is_err());
         assert!(Library::in_folder(folder.path().join("policies"), || ()).added().is_empty());
