@@ -157,7 +157,7 @@ impl Challenge {
     /// [`ChallengeError`].
     pub fn of(name: ChallengeName) -> Result<Self, ChallengeError> {
         let (difficulty, seed) = (name.difficulty, xxh3_64(name.to_string().as_bytes()));
-        let arena = Arena::open(difficulty.map())?;
+        let arena = Arena::shipped(difficulty.map())?;
         for index in 0..DRAWS {
             let drawn = arena.random(difficulty.map(), ControllerName::You, difficulty.disturbances(), seed, index)?;
             let path_m = drawn.start_m.zip(drawn.goal_m).and_then(|(start, goal)| arena.space.shortest_m(start, goal));

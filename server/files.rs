@@ -1,4 +1,4 @@
-//! Reads untrusted files up to a size limit, replaces files as a whole, and checks names of things that users add.
+//! Reads untrusted files up to a size limit, and replaces files as a whole.
 
 use std::fs::File;
 use std::io::Read;
@@ -50,15 +50,6 @@ pub fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
         let _ = std::fs::remove_file(&part);
     }
     written
-}
-
-/// Longest name.
-const NAME_LENGTH: usize = 40;
-
-/// Whether a user may give this name to something that becomes a file: up to 40 of a to z, 0 to 9, - and _.
-pub fn is_name(name: &str) -> bool {
-    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-    (1..=NAME_LENGTH).contains(&name.len()) && name.chars().all(fits) && !name.starts_with(['-', '_'])
 }
 
 #[cfg(test)]

@@ -16,7 +16,6 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use crate::files::{ReadError, read_at_most};
 use crate::geometry::{Point2, Polygon, Rect, Vector2};
 use outline::Outline;
 use report::Newer;
@@ -26,7 +25,7 @@ pub use maze::{Maze, MazeError, MazeFamily};
 pub use report::{MapError, Place, Repair, RepairKind};
 pub use space::FreeSpace;
 pub use summary::{Narrow, Summary};
-pub use svg::{decoded, fit};
+pub use svg::{check_format, decoded, fit};
 
 /// Height of every wall above the table.
 pub const WALL_HEIGHT_M: f64 = 0.005;
@@ -87,25 +86,6 @@ impl Map {
         let file = Shipped::get(&format!("{name}.svg")).ok_or_else(|| MapError::Unknown { name: name.to_owned() })?;
         let text = std::str::from_utf8(&file.data).map_err(|e| MapError::Svg(e.to_string()))?;
         Self::from_svg(name, text)
-    }
-
-    /// A shipped map by name, or a file by its path. No name has a dot or a slash.
-    pub fn open(name_or_path: &str) -> Result<Self, MapError> {
-        let path = std::path::Path::new(name_or_path);
-        let shipped = Self::shipped(name_or_path);
-        if shipped.is_ok() || !(name_or_path.contains(['.', '/']) || path.is_file()) {
-            return shipped;
-        }
-        if path.is_file() {
-            svg::check_format_of(path)?;
-        }
-        let bytes = read_at_most(path, MAX_SVG_BYTES as u64).map_err(|error| match error {
-            ReadError::Io(error) => MapError::Io { path: name_or_path.to_owned(), error },
-            ReadError::TooLarge { bytes, .. } => MapError::TooLarge { bytes: bytes as usize },
-        })?;
-        let text = decoded(&bytes)?;
-        let name = path.file_stem().map_or("map".into(), |stem| stem.to_string_lossy());
-        Self::from_svg(&name, &text)
     }
 
     /// Reads an SVG (specification §3): user units are millimetres, `x_m = x/1000`, `y_m = −y/1000`, the `viewBox` is

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use ferry::camera::Camera;
+use ferry::open;
 use ferry::trial::{Arena, Case};
 use serde_json::{Value, json};
 
@@ -17,7 +18,7 @@ fn kept() -> Vec<std::path::PathBuf> {
 }
 
 fn run(case: &Case) -> ferry::trial::CaseOutcome {
-    let arena = case.arena().unwrap();
+    let arena = open::arena_of(case).unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     case.run(&arena, &mut camera, &mut |_| ControlFlow::Continue(())).unwrap()
 }
@@ -27,7 +28,7 @@ fn every_kept_case_ends_as_expected() {
     let paths = kept();
     assert!(paths.len() >= 3, "{paths:?}");
     for path in paths {
-        let case = Case::open(path.to_str().unwrap()).unwrap();
+        let case = open::case(path.to_str().unwrap()).unwrap();
         assert!(case.expect.is_some(), "{} expects nothing", path.display());
         let outcome = run(&case);
         assert!(outcome.meets(&case), "{}: expected {:?}, found {outcome:?}", path.display(), case.expect);
@@ -65,7 +66,7 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
 
     // The case starts from the session's state and continues to its end.
     let mut at_401 = None;
-    let arena = Arena::open("posts").unwrap();
+    let arena = Arena::shipped("posts").unwrap();
     let outcome = case
         .run(&arena, &mut Camera::of(&gpu(), arena.static_scene()).unwrap(), &mut |record| {
             if record.tick == 401 {

@@ -18,7 +18,7 @@ use crate::support::gpu;
 
 fn posts() -> Arc<Arena> {
     static POSTS: OnceLock<Arc<Arena>> = OnceLock::new();
-    POSTS.get_or_init(|| Arena::open("posts").unwrap()).clone()
+    POSTS.get_or_init(|| Arena::shipped("posts").unwrap()).clone()
 }
 
 fn camera() -> Camera {

@@ -16,7 +16,7 @@ fn scripted(at: When, disturbance: Disturbance) -> Scenario {
 }
 
 fn run(scenario: Scenario, ticks: usize) -> Vec<TickRecord> {
-    let arena = Arena::open(&scenario.map).unwrap();
+    let arena = Arena::shipped(&scenario.map).unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trial = Trial::new(scenario, arena).unwrap();
     (0..ticks).map(|_| trial.tick(Source::Camera(&mut camera)).unwrap()).collect()
@@ -97,7 +97,7 @@ fn simultaneous_kicks_are_limited_to_the_maximum() {
 #[test]
 fn invalid_scripts_are_refused_by_field() {
     let refusal = |disturbance| {
-        let arena = Arena::open("open").unwrap();
+        let arena = Arena::shipped("open").unwrap();
         Trial::new(scripted(When::Tick(1), disturbance), arena).unwrap_err()
     };
     let far = refusal(Disturbance::Displace { x_m: 2.0, y_m: 0.0 });
@@ -106,7 +106,7 @@ fn invalid_scripts_are_refused_by_field() {
     let expected = "script[0]: disturbance: x_n_s is 1, it must be finite, and both together at most 0.002";
     assert_eq!(hard.to_string(), expected);
     let many = vec![Scripted { at: When::Tick(1), disturbance: Disturbance::Dropout { for_s: 1.0 } }; 65];
-    let long = Trial::new(Scenario { script: many, ..Scenario::idle("open", 1) }, Arena::open("open").unwrap());
+    let long = Trial::new(Scenario { script: many, ..Scenario::idle("open", 1) }, Arena::shipped("open").unwrap());
     assert_eq!(long.unwrap_err().to_string(), "script has 65 disturbances, the limit is 64");
 }
 
@@ -146,7 +146,7 @@ fn the_arm_is_refused_on_maps_beyond_its_reach() {
     let mut scenario = Scenario::idle("attractor-example", 1);
     scenario.start_m = Some(Point2::new(-0.78, 0.73));
     scenario.positioner = Some(PositionerKind::Arm);
-    let arena = Arena::open("attractor-example").unwrap();
+    let arena = Arena::shipped("attractor-example").unwrap();
     let refusal = Trial::new(scenario.clone(), arena.clone()).unwrap_err().to_string();
     assert!(refusal.contains("start_m") && refusal.contains("1.068 m from the base"), "{refusal}");
     scenario.start_m = arena.space.points().find(|p| (0.3..0.7).contains(&p.coords.norm()));

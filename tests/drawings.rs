@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use ferry::map::{Map, MapError};
+use ferry::open;
 
 const FOLDER: &str = "tests/drawings";
 
 fn read(name: &str) -> Result<Map, MapError> {
-    Map::open(&Path::new(FOLDER).join(format!("{name}.svg")).to_string_lossy())
+    open::map(&Path::new(FOLDER).join(format!("{name}.svg")).to_string_lossy())
 }
 
 /// What `docs/maps.md` says of each kind of drawing.

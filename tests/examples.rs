@@ -28,7 +28,7 @@ fn the_papers_examples_end_at_their_goals() {
     for name in Shipped::names().into_iter().filter(|name| name.starts_with("example")) {
         let scenario = Shipped::open(&name).unwrap().scenario;
         let expected = scenario.script.len() as u32;
-        let arena = Arena::open(&scenario.map).unwrap();
+        let arena = Arena::shipped(&scenario.map).unwrap();
         let (episode, figure) = run(scenario, &arena);
         assert!(episode.delivered, "{name}: {}", episode.outcome);
         assert_eq!(episode.disturbances, expected, "{name}");
@@ -45,7 +45,7 @@ fn examples_1_and_2_end_at_their_goals_under_the_papers_law_too() {
         let mut scenario = Shipped::open(name).unwrap().scenario;
         scenario.parameters.attractor_law = AttractorLaw::Literal;
         let disturbed = !scenario.script.is_empty();
-        let arena = Arena::open(&scenario.map).unwrap();
+        let arena = Arena::shipped(&scenario.map).unwrap();
         let (episode, _) = run(scenario, &arena);
         assert!(episode.delivered, "{name}: {}", episode.outcome);
         assert_eq!(episode.disturbances, u32::from(disturbed), "{name}");
@@ -58,7 +58,7 @@ fn examples_1_and_2_end_at_their_goals_under_the_papers_law_too() {
 fn disturbances_come_at_the_steps_of_the_papers_figures() {
     for (name, steps) in [("example-3-steps", &[72, 90][..]), ("example-rl-figure", &[29, 98, 154])] {
         let scenario = Shipped::open(name).unwrap().scenario;
-        let arena = Arena::open(&scenario.map).unwrap();
+        let arena = Arena::shipped(&scenario.map).unwrap();
         let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let mut trial = Trial::new(scenario, arena).unwrap();
         let (mut struck, mut last) = (Vec::new(), None::<Moment>);
@@ -80,7 +80,7 @@ fn disturbances_come_at_the_steps_of_the_papers_figures() {
 #[test]
 fn the_papers_robot_has_errors_near_the_papers() {
     let parameters = Parameters::default().with(&["preset=paper".to_owned()]).unwrap();
-    let arena = Arena::open("colon").unwrap();
+    let arena = Arena::shipped("colon").unwrap();
     let (mut mean_x_m, mut largest_x_m) = (0.0, 0.0);
     for index in 0..6 {
         let random = arena.random("colon", ControllerName::Rl, 0, 41, index).unwrap();
@@ -134,7 +134,7 @@ fn a_detour_is_found_and_a_walled_off_goal_is_reported() {
 
 #[test]
 fn a_planner_restored_during_a_search_finds_the_same_path() {
-    let arena = Arena::open("colon-folds").unwrap();
+    let arena = Arena::shipped("colon-folds").unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut scenario = Scenario {
         start_m: Some([0.101, -0.255].into()),

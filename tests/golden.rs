@@ -32,7 +32,7 @@ fn beside(subject: &Subject) -> Subject {
 
 /// Walls that move: waves of 10 mm along the colon.
 fn moving(subject: &Subject) -> Subject {
-    let arena = Arena::open("colon").unwrap();
+    let arena = Arena::shipped("colon").unwrap();
     let parameters = Parameters { peristalsis_amplitude_m: 0.01, ..Parameters::default() };
     let motion = WallMotion::in_full(&parameters.plant().peristalsis, 0);
     let [x_m, y_m, _] = subject.bead_m;
@@ -74,7 +74,7 @@ fn subject() -> Subject {
 }
 
 fn camera(gpu: &Arc<Gpu>, quality: Quality) -> Camera {
-    let arena = Arena::open("colon").unwrap();
+    let arena = Arena::shipped("colon").unwrap();
     assert!(arena.map.is_free(Point2::new(0.06, -0.475)));
     Camera::of(gpu, arena.static_scene()).unwrap().with_quality(quality)
 }

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 const FLOORS: [&[&str]; 14] = [
-    &["geometry", "image", "files", "faults"],
+    &["geometry", "image", "names", "files", "faults"],
     &["robot", "magnetics", "map"],
     &["plant"],
     &["scenario", "tracking", "perception"],
     &["policy"],
     &["control"],
     &["trial"],
-    &["challenge", "program", "ur", "camera"],
+    &["challenge", "program", "ur", "camera", "open"],
     &["jobs", "export"],
     &["learn", "evaluate", "session", "boards"],
     &["recovery"],

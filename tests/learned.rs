@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use ferry::camera::Camera;
 use ferry::evaluate::{Cell, Experiment, Manner, Venue, Watch, run, unrecorded};
 use ferry::map::Map;
+use ferry::open;
 use ferry::perception::{Observation, Percept};
 use ferry::policy::Policy;
 use ferry::scenario::{ControllerName, Parameters, RlPolicy, Scenario};
@@ -48,7 +49,7 @@ fn expect_deliveries(least: usize, episodes: u32, disturbances: u32) {
             program: None,
             varied: Vec::new(),
         },
-        venue: Venue::of(Arena::open("colon").unwrap()),
+        venue: Venue::of(Arena::shipped("colon").unwrap()),
         map: "colon".to_owned(),
         episodes,
         seed: 7,
@@ -82,7 +83,7 @@ fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
 fn the_bead_in_the_picture_changes_few_decisions() {
     const PLACES: usize = 300;
     for (map, name) in [("colon", "colon"), ("posts", "general")] {
-        let (arena, policy) = (Arena::open(map).unwrap(), Policy::shipped(name).unwrap());
+        let (arena, policy) = (Arena::shipped(map).unwrap(), Policy::shipped(name).unwrap());
         let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let mut rng = ChaCha8Rng::seed_from_u64(8);
         let mut alike = 0;
@@ -136,7 +137,7 @@ fn training_writes_a_working_policy_and_can_be_resumed() {
     });
     let reached: u32 = examined.split('/').next().unwrap().parse().unwrap();
     assert_eq!(reached + counts[0] + counts[1], 200, "{said}");
-    let policy = Policy::open(&folder.path().join("room.safetensors")).unwrap();
+    let policy = open::policy(&folder.path().join("room.safetensors")).unwrap();
     assert_eq!((policy.manifest().updates, policy.manifest().seed), (300, 1));
     for ending in ["curve.csv", "curve.svg", "checkpoint"] {
         assert!(folder.path().join("room").with_extension(ending).exists(), "{ending}");

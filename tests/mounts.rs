@@ -22,12 +22,12 @@ fn realistic() -> Parameters {
 
 fn idle(map: &str, parameters: &Parameters, start_m: Point2<f64>) -> Trial {
     let scenario = Scenario { parameters: parameters.clone(), start_m: Some(start_m), ..Scenario::idle(map, 1) };
-    Trial::new(scenario, Arena::open(map).unwrap()).unwrap()
+    Trial::new(scenario, Arena::shipped(map).unwrap()).unwrap()
 }
 
 /// Free places of a map, at random.
 fn places(map: &str, count: usize) -> Vec<Point2<f64>> {
-    let arena = Arena::open(map).unwrap();
+    let arena = Arena::shipped(map).unwrap();
     let space = FreeSpace::new(&arena.map, CLEARANCE_M);
     let mut rng = ChaCha8Rng::seed_from_u64(5);
     (0..count).map(|_| space.sample(&arena.map, None, &mut rng).unwrap()).collect()
@@ -36,7 +36,7 @@ fn places(map: &str, count: usize) -> Vec<Point2<f64>> {
 #[test]
 fn the_obstacle_patch_and_every_step_are_visible_and_the_magnet_is_in_the_picture() {
     for map in ["colon", "posts"] {
-        let mut camera = Camera::of(&gpu(), Arena::open(map).unwrap().static_scene()).unwrap();
+        let mut camera = Camera::of(&gpu(), Arena::shipped(map).unwrap().static_scene()).unwrap();
         for place in places(map, 40) {
             let trial = idle(map, &realistic(), place);
             let tool_m = trial.tool_m().xy();
@@ -59,7 +59,7 @@ fn the_obstacle_patch_and_every_step_are_visible_and_the_magnet_is_in_the_pictur
 #[test]
 fn what_the_magnet_hides_is_neither_free_nor_wall() {
     for map in ["colon", "posts"] {
-        let arena = Arena::open(map).unwrap();
+        let arena = Arena::shipped(map).unwrap();
         let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let parameters = realistic();
         let spread = wall_spread(parameters.camera_height_m, ferry::map::WALL_HEIGHT_M);
@@ -94,7 +94,7 @@ fn what_the_magnet_hides_is_neither_free_nor_wall() {
 
 #[test]
 fn the_networks_image_does_not_depend_on_the_mount_unless_it_is_not_corrected() {
-    let arena = Arena::open("colon").unwrap();
+    let arena = Arena::shipped("colon").unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut image = |parameters: &Parameters, place: Point2<f64>| {
         let trial = idle("colon", parameters, place);
@@ -126,7 +126,7 @@ fn a_camera_above_the_magnet_admits_no_step() {
         goal_m: Some(Point2::new(0.1, -0.45)),
         ..Scenario::idle("open", 1)
     };
-    let arena = Arena::open("open").unwrap();
+    let arena = Arena::shipped("open").unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trial = Trial::new(scenario, arena).unwrap();
     let start_m = trial.tool_m();
@@ -145,7 +145,7 @@ fn a_camera_above_the_magnet_admits_no_step() {
 fn all_three_controllers_work_under_the_realistic_mount() {
     let trials: u64 = std::env::var("FERRY_TRIALS").map_or(6, |count| count.parse().unwrap());
     for map in ["posts", "colon"] {
-        let venue = Venue::of(Arena::open(map).unwrap());
+        let venue = Venue::of(Arena::shipped(map).unwrap());
         for controller in ControllerName::AUTOMATIC {
             let delivered = |parameters: &Parameters| {
                 let one = |index| {

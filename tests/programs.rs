@@ -50,7 +50,7 @@ fn run(
 
 #[test]
 fn a_program_delivers_and_its_log_replays_without_it() {
-    let arena = Arena::open("posts").unwrap();
+    let arena = Arena::shipped("posts").unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trial = Trial::new(scenario(&arena), arena.clone()).unwrap();
     let begun = Entry::Begin(Box::new(LoggedBeginning::of(&trial, Beginning::SetUp)));
@@ -79,7 +79,7 @@ fn a_program_delivers_and_its_log_replays_without_it() {
 
 #[test]
 fn without_a_usable_answer_the_arm_holds() {
-    let arena = Arena::open("posts").unwrap();
+    let arena = Arena::shipped("posts").unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut refusal_after = |answer: Option<Input>| {
         let mut trial = Trial::new(scenario(&arena), arena.clone()).unwrap();
@@ -109,7 +109,7 @@ fn without_a_usable_answer_the_arm_holds() {
 
 #[test]
 fn refused_answers_change_nothing() {
-    let arena = Arena::open("posts").unwrap();
+    let arena = Arena::shipped("posts").unwrap();
     let refused = |controller, answer: Input| {
         let mut trial = Trial::new(Scenario { controller, ..scenario(&arena) }, arena.clone()).unwrap();
         let before = (trial.state().world_hash(), trial.state().controller_hash());

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use ferry::camera::Camera;
+use ferry::open;
 use ferry::trial::{Case, CaseOutcome};
 
 use crate::support::{Browser, Laboratory, ferry, files, gpu};
@@ -44,7 +45,7 @@ async fn under_way(lab: &Laboratory) -> Browser {
 }
 
 fn outcome(case: &Case) -> CaseOutcome {
-    let arena = case.arena().unwrap();
+    let arena = open::arena_of(case).unwrap();
     case.run(&arena, &mut Camera::of(&gpu(), arena.static_scene()).unwrap(), &mut |_| ControlFlow::Continue(()))
         .unwrap()
 }
@@ -190,7 +191,7 @@ fn every_kind_is_mapped_recorded_and_replayed() {
         assert_eq!(logs.len(), cells.len(), "{kind}");
         for log in logs.iter().step_by(5) {
             assert!(replays(log), "{log:?}");
-            assert!(Case::open(&log.with_extension("json").display().to_string()).is_ok());
+            assert!(open::case(&log.with_extension("json").display().to_string()).is_ok());
         }
     }
 }

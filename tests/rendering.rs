@@ -69,7 +69,7 @@ fn anywhere(w: &Rect, rng: &mut ChaCha8Rng) -> Point2<f64> {
 fn dark_pixels_are_walls(gpu: &Arc<Gpu>, seed: u64) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     for name in Map::shipped_names() {
-        let arena = Arena::open(&name).unwrap();
+        let arena = Arena::shipped(&name).unwrap();
         let mut camera = Camera::of(gpu, arena.static_scene()).unwrap();
         for mount in mounts(&mut rng) {
             let tool = anywhere(arena.map.workspace(), &mut rng);
@@ -100,7 +100,7 @@ fn brightness_tells_wall_from_floor_wherever_the_bead_lies() {
     let mut rng = ChaCha8Rng::seed_from_u64(5);
     let mut seen = 0;
     for name in Map::shipped_names() {
-        let arena = Arena::open(&name).unwrap();
+        let arena = Arena::shipped(&name).unwrap();
         let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let points: Vec<_> = arena.space.points().collect();
         for _ in 0..20 {

@@ -83,7 +83,7 @@ fn perception_gives_the_survey_that_training_has() {
 /// The policy decides by the obstacle map, not by the image alone.
 #[test]
 fn the_explorer_decides_by_the_obstacle_map() {
-    let arena = Arena::open("posts").unwrap();
+    let arena = Arena::shipped("posts").unwrap();
     let policy = Policy::shipped("explorer").unwrap();
     let (tool_m, goal_m) = (Point2::new(-0.045, -0.375), Point2::new(0.205, -0.375));
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
@@ -105,7 +105,7 @@ fn the_explorer_decides_by_the_obstacle_map() {
 /// Where the obstacle map shows its next cells clear, the tool goes straight over them.
 #[test]
 fn a_shortcut_leads_over_observed_cells_only() {
-    let arena = Arena::open("open").unwrap();
+    let arena = Arena::shipped("open").unwrap();
     let policy = Policy::shipped("explorer").unwrap();
     let (tool_m, goal_m) = (Point2::new(-0.045, -0.425), Point2::new(0.055, -0.325));
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();

@@ -60,7 +60,7 @@ fn losses(
     for_s: [f64; 3],
     trials: u64,
 ) -> Vec<(Loss, [Loss; 3])> {
-    let venue = Venue::of(Arena::open(map).unwrap());
+    let venue = Venue::of(Arena::shipped(map).unwrap());
     (0..trials)
         .into_par_iter()
         .map(|index| {
@@ -128,7 +128,7 @@ fn a_lost_tracker_costs_only_time_under_the_realistic_mount_when_the_arm_hides_t
 }
 
 fn run(scenario: Scenario, is_over: impl Fn(&TickRecord) -> bool) -> Vec<TickRecord> {
-    let arena = Arena::open(&scenario.map).unwrap();
+    let arena = Arena::shipped(&scenario.map).unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     let mut trial = Trial::new(scenario, arena).unwrap();
     let mut records = Vec::new();
@@ -201,6 +201,6 @@ fn the_step_limit_is_a_parameter() {
     assert_eq!(ended(20), (Phase::Stopped(StopReason::LegSteps { limit: 20 }), 20));
     assert_eq!(ended(150).0, Phase::Delivered);
     let none = Scenario { parameters: Parameters { step_limit: 9, ..Parameters::default() }, ..scenario(20) };
-    let error = Trial::new(none, Arena::open("open").unwrap()).unwrap_err().to_string();
+    let error = Trial::new(none, Arena::shipped("open").unwrap()).unwrap_err().to_string();
     assert_eq!(error, "parameters: step_limit is 9, it must be 10 to 5000");
 }

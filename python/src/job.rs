@@ -11,7 +11,7 @@ use ferry::evaluate::{
     unrecorded,
 };
 use ferry::jobs::Life;
-use ferry::policy::Policy;
+use ferry::open;
 use ferry::program::{Connection, Program};
 use ferry::protocol::{Conversation, Outgoing};
 use ferry::recovery::{self, Findings, Recovery, RecoveryPart, RecoveryPlan, RecoveryQuery};
@@ -101,7 +101,7 @@ impl Job {
                 parameters: Parameters::default().with(&changes).map_err(bad)?,
                 vary: vary.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(bad)?,
                 manner: Manner { by_hand, tool_apart },
-                policy: policy.as_deref().map(Policy::open).transpose().map_err(bad)?,
+                policy: policy.as_deref().map(open::policy).transpose().map_err(bad)?,
             };
             let experiments = plan.experiments().map_err(bad)?;
             let work = Work::Evaluation { experiments, stop: AtomicBool::new(false), done: AtomicU64::new(0) };

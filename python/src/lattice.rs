@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use ferry::learn::sweep::{STEP_M, Sweep};
 use ferry::learn::{Ending, Lane, Lanes, Recipe, Terrain};
+use ferry::open;
 use ferry::trial::{Arena, LoggedMap};
 use numpy::{PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -52,7 +53,7 @@ impl Lattice {
         py.detach(|| {
             let recipe = Recipe { progress_reward, step_penalty, clearance_m, ..Recipe::default() };
             recipe.check().map_err(bad)?;
-            Self::on(Arena::open(map).map_err(bad)?, recipe, sweeps, lanes)
+            Self::on(open::arena(map).map_err(bad)?, recipe, sweeps, lanes)
         })
     }
 

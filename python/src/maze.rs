@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use ferry::camera::{Camera, Gpu};
 use ferry::geometry::Point2;
+use ferry::open;
 use ferry::perception::OBSERVATION_SIZE_PX;
 use ferry::scenario::{ControllerName, LEAST_DISTANCE_M, Parameters, Scenario};
 use ferry::trial::{Arena, Input, LoggedMap, Phase, Question, Seen, Source, StopReason, Trial, TrialState};
@@ -64,7 +65,7 @@ impl Mazes {
     fn new(py: Python<'_>, map: String, lanes: usize, changes: Vec<String>, disturbances: u32) -> PyResult<Self> {
         py.detach(|| {
             let parameters = Parameters::default().with(&changes).map_err(bad)?;
-            let arena = Arena::open(&map).map_err(bad)?;
+            let arena = open::arena(&map).map_err(bad)?;
             let mazes = Self { arena, map, parameters, disturbances, count: lanes, lanes: Vec::new() };
             mazes.trial(0, &Wish::default())?;
             Ok(mazes)

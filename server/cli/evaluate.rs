@@ -16,7 +16,7 @@ use crate::evaluate::{
     Trials, Variation, Watch, run, run_one, run_trials, unrecorded,
 };
 use crate::files::replace;
-use crate::policy::Policy;
+use crate::open;
 use crate::recording::Recorder;
 use crate::scenario::{ControllerName, Parameters};
 use crate::trial::{Nowhere, Sink};
@@ -115,7 +115,7 @@ fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
         parameters: Parameters::default().with(&arguments.set).context("--set")?,
         vary: arguments.vary.clone(),
         manner: Manner { by_hand: arguments.by_hand, tool_apart: arguments.tool_apart },
-        policy: arguments.policy.as_deref().map(Policy::open).transpose()?,
+        policy: arguments.policy.as_deref().map(open::policy).transpose()?,
     };
     Ok(plan.experiments()?)
 }

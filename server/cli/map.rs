@@ -2,7 +2,8 @@
 
 use std::process::ExitCode;
 
-use crate::map::{FreeSpace, Map, Summary};
+use crate::map::{FreeSpace, Summary};
+use crate::open;
 use crate::plant::BEAD_RADIUS_M;
 use crate::scenario::CLEARANCE_M;
 use crate::trial::Arena;
@@ -17,7 +18,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let map = Map::open(&arguments.file)?;
+    let map = open::map(&arguments.file)?;
     let size = map.workspace().size_m();
     let w = map.workspace();
     println!("map        {}", map.name());

@@ -12,9 +12,10 @@ use crate::evaluate::Trace;
 use crate::files::read_at_most;
 use crate::geometry::{Point2, Point3};
 use crate::image::Picture;
+use crate::open;
 use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, WallMotion};
 use crate::scenario::{ControllerName, Parameters};
-use crate::trial::{Arena, Case, Tally};
+use crate::trial::Tally;
 
 /// Largest golden picture.
 const PNG_BYTES_MOST: u64 = 64 << 20;
@@ -85,12 +86,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 
 /// Runs a scenario with its inputs, draws it, and prints the result with the paper's figures.
 fn trajectory(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let mut case = Case::open(name)?;
+    let mut case = open::case(name)?;
     let scenario = &mut case.scenario;
     scenario.controller = arguments.controller.unwrap_or(scenario.controller);
     scenario.parameters = scenario.parameters.with(&arguments.set).context("--set")?;
     let scenario = case.scenario.clone();
-    let arena = case.arena()?;
+    let arena = open::arena_of(&case)?;
     let mut camera = Camera::of(&super::open_gpu()?, arena.static_scene())?;
     let (mut trace, mut tally) = (Trace::of(&arena.map, &scenario), Tally::default());
     let outcome = case.run(&arena, &mut camera, &mut |record| {
@@ -109,7 +110,7 @@ fn trajectory(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
 }
 
 fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let arena = Arena::open(&arguments.map)?;
+    let arena = open::arena(&arguments.map)?;
     let parameters = Parameters::default().with(&arguments.set).context("--set")?;
     let tool_m = Point3::new(at.x, at.y, parameters.tool_height_m);
     let home = Positioner::home(PositionerKind::of(&arena.map), tool_m);

@@ -8,8 +8,9 @@ use anyhow::Context;
 
 use crate::camera::{Camera, CameraError, ImageSource};
 use crate::learn::Library;
+use crate::open;
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::{Arena, Deciding, Entry, InputLog, replay};
+use crate::trial::{Arena, Deciding, Entry, replay};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -27,7 +28,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let path = arguments.file.display();
-    let log = InputLog::open(&arguments.file).with_context(|| format!("{path}"))?;
+    let log = open::log(&arguments.file).with_context(|| format!("{path}"))?;
     if log.torn_bytes > 0 {
         let torn = log.torn_bytes;
         println!(

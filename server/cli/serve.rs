@@ -12,11 +12,11 @@ use clap::builder::RangedU64ValueParser;
 use tokio::sync::watch;
 
 use crate::http::{self, EmbeddedFile, Page};
+use crate::open;
 use crate::recording::Retention;
 use crate::robot_client;
 use crate::robot_server::{self, Ports};
 use crate::scenario::Scenario;
-use crate::trial::Case;
 use crate::ur::{Twin, model::Model};
 
 /// When the server has stopped: time for background work to end.
@@ -133,7 +133,7 @@ fn check_folder(data: &Path) -> anyhow::Result<()> {
 
 /// The scenario of new sessions. A session has no inputs before its operator, and only maps of the library.
 fn opening(name_or_path: &str) -> anyhow::Result<Scenario> {
-    let case = Case::open(name_or_path).context("--scenario")?;
+    let case = open::case(name_or_path).context("--scenario")?;
     anyhow::ensure!(case.map.is_none(), "--scenario {name_or_path}: map is a drawing, it must be the name of a map");
     anyhow::ensure!(case.inputs.is_empty(), "--scenario {name_or_path}: inputs has items, it must be empty");
     Ok(case.scenario)

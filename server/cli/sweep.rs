@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use crate::learn::sweep::{STEP_M, Sweep, cells};
-use crate::trial::Arena;
+use crate::open;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -19,7 +19,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let arena = Arena::open(&arguments.map)?;
+    let arena = open::arena(&arguments.map)?;
     let gpu = super::open_gpu()?;
     let (columns, rows) = cells(&arena, STEP_M);
     let bar = super::progress::progress((columns * rows) as u64, "images")?;

@@ -18,8 +18,8 @@ use crate::learn::{
     Cells, Curve, EXAMINATION_SEED, Ending, Frame, GoalSet, MOST_TERRAINS, Marks, Recipe, RecipeName, Run, Saving,
     State, Terrain, drive, revision, wall_waves_m,
 };
+use crate::open;
 use crate::policy::{Architecture, Policy};
-use crate::trial::Arena;
 
 const CHECKPOINT_PERIOD: Duration = Duration::from_secs(60);
 
@@ -243,7 +243,7 @@ fn describe_values(state: &State, terrain: &Terrain, terrains: &[Terrain]) -> an
 }
 
 fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<Terrain>> {
-    let arenas = names.iter().map(|name| Arena::open(name)).collect::<Result<Vec<_>, _>>()?;
+    let arenas = names.iter().map(|name| open::arena(name)).collect::<Result<Vec<_>, _>>()?;
     let waves_m: Vec<_> = arenas.iter().map(|arena| wall_waves_m(arena, recipe.wall_amplitude_m)).collect();
     let count = waves_m.iter().map(Vec::len).sum::<usize>();
     ensure!(count <= MOST_TERRAINS, "--map: {count} maps and moments, at most {MOST_TERRAINS}");

@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn a_trial_may_begin_apart_and_the_bead_is_where_it_would_be() {
-        let arena = Arena::open("colon").unwrap();
+        let arena = Arena::shipped("colon").unwrap();
         for index in 0..20 {
             let scenario = arena.random("colon", ControllerName::Errt, 2, 1, index).unwrap();
             let manner = Manner { by_hand: true, tool_apart: true };

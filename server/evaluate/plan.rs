@@ -5,10 +5,10 @@ use std::sync::Arc;
 use super::variation::applied;
 use super::{Cell, Experiment, Manner, Setting, Variation, VariationError, Venue};
 use crate::map::MapError;
+use crate::open;
 use crate::policy::Policy;
 use crate::program::Program;
 use crate::scenario::{ControllerName, Parameters, SetError};
-use crate::trial::Arena;
 
 /// Who carries the bead.
 #[derive(Clone)]
@@ -75,7 +75,7 @@ impl Plan {
         let combinations = combinations.into_iter().map(with).collect::<Result<Vec<_>, PlanError>>()?;
         let mut experiments: Vec<Experiment> = Vec::new();
         for map in &self.maps {
-            let arena = Arena::open(map)?;
+            let arena = open::arena(map)?;
             let arena = match &self.policy {
                 Some(policy) => arena.with_policy(policy.clone()),
                 None => arena,

@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_large_map_has_coarser_places() {
-        let spacing_of = |map: &str| spacing_m(&Arena::open(map).unwrap());
+        let spacing_of = |map: &str| spacing_m(&Arena::shipped(map).unwrap());
         assert_eq!(spacing_of("colon"), STEP_M);
         assert_eq!(spacing_of("attractor-example"), 0.025);
     }

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
-use crate::files::{is_name, read_at_most, replace};
+use crate::files::{read_at_most, replace};
+use crate::names::is_name;
+use crate::open;
 use crate::policy::{MAX_BYTES, Policies, Policy, PolicyError, Shipped};
 use crate::scenario::{AddedPolicy, RlPolicy};
 
@@ -87,7 +89,7 @@ impl Library {
         let mut added = Vec::new();
         for path in files {
             let name = path.file_stem().and_then(|stem| stem.to_str()).filter(|name| is_added(name));
-            match (name, Policy::open(&path)) {
+            match (name, open::policy(&path)) {
                 (Some(name), Ok(policy)) => {
                     let origin = read_at_most(&path.with_extension("json"), ORIGIN_BYTES).ok();
                     let origin = origin.and_then(|bytes| String::from_utf8(bytes).ok()).map(Into::into);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::{PoisonError, RwLock};
 
 use super::{Map, MapError};
-use crate::files::is_name;
+use crate::names::is_name;
 
 /// Largest number of added maps.
 pub const ADDED_MAPS: usize = 32;

@@ -27,7 +27,7 @@ use usvg::tiny_skia_path::Transform;
 
 use super::{MAX_SVG_BYTES, MapError, Newer, Repair, RepairKind};
 use crate::geometry::{Polygon, Rect};
-pub use encoding::{check_format_of, decoded};
+pub use encoding::{check_format, decoded};
 pub use fit::fit;
 
 type Ring = Vec<[f64; 2]>;

@@ -1,7 +1,6 @@
 //! The file of a policy: safetensors with the manifest in the metadata.
 
 use std::collections::{HashMap, HashSet};
-use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use candle_core::{Device, Tensor};
@@ -11,7 +10,6 @@ use serde::{Deserialize, Serialize};
 
 use super::network::{Architecture, Fusion, Network, TensorSpec};
 use super::{OBSERVATION_SIZE_PX, Policy};
-use crate::files::{ReadError, read_at_most};
 
 /// Key of the manifest in the metadata.
 const KEY: &str = "ferry";
@@ -159,18 +157,6 @@ impl Policy {
         let file = Assets::get(&format!("{name}.safetensors"));
         let unknown = || PolicyError::Unknown { name: name.to_owned(), known: Self::shipped_names() };
         Ok(file.ok_or_else(unknown)?.data.into_owned())
-    }
-
-    /// Reads a policy from a file.
-    ///
-    /// # Errors
-    /// [`PolicyError`]. A file over 16 MiB is not read.
-    pub fn open(path: &Path) -> Result<Self, PolicyError> {
-        let read = read_at_most(path, MAX_BYTES).map_err(|error| match error {
-            ReadError::Io(error) => PolicyError::Io { path: path.display().to_string(), error },
-            ReadError::TooLarge { bytes, .. } => PolicyError::TooLarge { bytes },
-        })?;
-        Self::from_bytes(&read)
     }
 
     /// Reads a policy. Errors name the tensor that does not fit.

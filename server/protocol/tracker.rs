@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn it_is_what_the_tracker_reports_and_ages_while_no_sample_arrives() {
         let scenario = Scenario { goal_m: Some(Point2::new(0.12, -0.33)), ..Scenario::idle("posts", 1) };
-        let mut world = Trial::new(scenario, Arena::open("posts").unwrap()).unwrap().snapshot().world;
+        let mut world = Trial::new(scenario, Arena::shipped("posts").unwrap()).unwrap().snapshot().world;
         let truth_m = world.plant.bead.position_m;
         let perfect =
             TrackerParameters { noise_m: 0.0, bias_m: Vector2::zeros(), drift_m: 0.0, latency_ticks: 0, dropout: 0.0 };

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use super::{Recovery, RecoveryError, RecoveryQuery, Start};
 use crate::camera::{Camera, CameraError, Gpu};
 use crate::map::MapError;
+use crate::open;
 use crate::program::Program;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, RandomTrialError, SetError, ShippedError};
-use crate::trial::{Arena, Case, Origin, Timed, TrialError};
+use crate::trial::{Case, Origin, Timed, TrialError};
 
 /// Latest moment: one day.
 const AT_MOST_S: f64 = 86_400.0;
@@ -54,7 +55,7 @@ impl RecoveryPlan {
     /// [`RecoveryPlanError`].
     pub fn recovery(self, gpu: &Arc<Gpu>) -> Result<Recovery, RecoveryPlanError> {
         let case = self.case()?;
-        let arena = case.arena()?;
+        let arena = open::arena_of(&case)?;
         let tick = (self.at_s / SERVO_PERIOD_S) as u64;
         let moment = case.after(tick, &arena, &mut Camera::of(gpu, arena.static_scene())?)?;
         let told: Vec<Timed> = case.inputs.into_iter().filter(|timed| timed.tick <= tick).collect();
@@ -67,9 +68,9 @@ impl RecoveryPlan {
             return Err(RecoveryPlanError::At(self.at_s));
         }
         let mut case = match &self.scenario {
-            Some(name) => Case::open(name)?,
+            Some(name) => open::case(name)?,
             None => {
-                let arena = Arena::open(&self.map)?;
+                let arena = open::arena(&self.map)?;
                 let first = self.query.controllers.iter().find(|name| **name != ControllerName::Program);
                 let first = first.copied().unwrap_or(ControllerName::Attractor);
                 let scenario = arena.random(&self.map, first, 0, self.query.seed, 0)?;

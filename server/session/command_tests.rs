@@ -277,7 +277,7 @@ impl Watch {
 #[test]
 fn random_commands_keep_the_limits_and_refused_ones_change_nothing() {
     let mut rng = ChaCha8Rng::seed_from_u64(seed());
-    let arena = Arena::open("posts").unwrap();
+    let arena = Arena::shipped("posts").unwrap();
     let make_camera = Box::new(|_: &Arena| Ok(MadeUp::new()));
     let (events, _) = broadcast::channel(1);
     let scenario = Scenario::idle("posts", 1);

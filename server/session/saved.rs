@@ -11,12 +11,12 @@ use super::timeline::Timeline;
 use super::worker::Worker;
 use crate::camera::ImageSource;
 use crate::faults;
-use crate::files::read_at_most;
 use crate::map::{Library, Map};
+use crate::open;
 use crate::scenario::Scenario;
 use crate::trial::{
-    Arena, Beginning, Entry, Event, EventKind, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, Trial,
-    TrialError, TrialState,
+    Arena, Beginning, Entry, Event, EventKind, LogError, LogWriter, LoggedBeginning, LoggedMap, Trial, TrialError,
+    TrialState,
 };
 
 /// Ten runs, each with a map of at most a few megabytes.
@@ -50,7 +50,7 @@ impl Saved {
     /// # Errors
     /// The file cannot be read, or it is not a saved session of this version.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let entries = InputLog::read(&read_at_most(path, BYTES_MOST)?)?.entries;
+        let entries = open::log_at_most(path, BYTES_MOST)?.entries;
         let runs = entries.into_iter().filter_map(|entry| match entry {
             Entry::Begin(run) => Some(*run),
             Entry::Tick(_) => None,

@@ -26,9 +26,12 @@ pub struct Arena {
 }
 
 impl Arena {
-    /// Opens a map by name or path.
-    pub fn open(name_or_path: &str) -> Result<Arc<Self>, MapError> {
-        Ok(Self::of(Map::open(name_or_path)?))
+    /// A shipped map by name.
+    ///
+    /// # Errors
+    /// [`MapError::Unknown`].
+    pub fn shipped(name: &str) -> Result<Arc<Self>, MapError> {
+        Ok(Self::of(Map::shipped(name)?))
     }
 
     /// A map with the shipped policies.

@@ -2,17 +2,14 @@
 
 use std::iter::Peekable;
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::{Arena, Counters, Input, InputError, LoggedMap, Source, TickRecord, Trial, TrialError};
-use crate::files::read_at_most;
 use crate::image::ImageSource;
-use crate::map::MapError;
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{Scenario, Shipped, ShippedError};
+use crate::scenario::Scenario;
 
 /// Time for a delivery that is still pending when the case is saved.
 const TIME_TO_DELIVER_S: f64 = 60.0;
@@ -21,8 +18,6 @@ const TIME_TO_DELIVER_S: f64 = 60.0;
 const SLACK_S: f64 = 10.0;
 /// Without an expectation, a case that does not come to rest ends this long after the last input.
 const REST_S: f64 = 600.0;
-/// Maximum file size; an hour of dragging needs a tenth of it.
-const BYTES_MOST: u64 = 64 << 20;
 /// Maximum tick in a case: one day.
 const TICKS_MOST: u64 = 24 * 3600 * 125;
 
@@ -118,17 +113,6 @@ impl CaseOutcome {
 }
 
 impl Case {
-    /// A shipped scenario by name, or a file when `name_or_path` ends in `.json`.
-    pub fn open(name_or_path: &str) -> Result<Self, ShippedError> {
-        if !name_or_path.ends_with(".json") {
-            let Shipped { about, scenario } = Shipped::open(name_or_path)?;
-            return Ok(Self { about, scenario, map: None, inputs: Vec::new(), expect: None });
-        }
-        let unreadable = |reason: String| ShippedError::Unreadable { path: name_or_path.to_owned(), reason };
-        let bytes = read_at_most(Path::new(name_or_path), BYTES_MOST).map_err(|error| unreadable(error.to_string()))?;
-        Self::from_json(&bytes).map_err(|error| unreadable(error.to_string()))
-    }
-
     /// Reads a case.
     pub fn from_json(bytes: &[u8]) -> Result<Self, CaseError> {
         let mut reader = serde_json::Deserializer::from_slice(bytes);
@@ -155,14 +139,6 @@ impl Case {
         let expect = Expectation { deliveries, by_tick: world.tick + ticks(time_s) };
         let map = LoggedMap::unless_shipped(&trial.arena().map);
         (deliveries > 0).then_some(Self { about, scenario, map, inputs, expect: Some(expect) })
-    }
-
-    /// The arena of the case's map.
-    ///
-    /// # Errors
-    /// The map is invalid or cannot be found.
-    pub fn arena(&self) -> Result<Arc<Arena>, MapError> {
-        self.map.as_ref().map_or_else(|| Arena::open(&self.scenario.map), LoggedMap::arena)
     }
 
     /// The trial after this many ticks, with the inputs up to then. Impossible ones are left out.

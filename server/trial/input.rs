@@ -324,7 +324,7 @@ mod tests {
 
     #[test]
     fn inputs_while_paused_are_limited() {
-        let mut trial = Trial::new(Scenario::idle("open", 1), Arena::open("open").unwrap()).unwrap();
+        let mut trial = Trial::new(Scenario::idle("open", 1), Arena::shipped("open").unwrap()).unwrap();
         trial.apply(Input::Drag { x_m: 0.0, y_m: -0.4, lift: false }).unwrap();
         for _ in 1..WAITING_MOST {
             trial.apply(Input::ClearGoal).unwrap();
@@ -348,7 +348,7 @@ mod tests {
     fn the_hand_leads_the_tool_of_you_and_of_no_other_controller() {
         let begin = |controller| {
             let scenario = Scenario { controller, start_m: Some(Point2::new(0.0, -0.35)), ..Scenario::idle("open", 1) };
-            Trial::new(scenario, Arena::open("open").unwrap()).unwrap()
+            Trial::new(scenario, Arena::shipped("open").unwrap()).unwrap()
         };
         let steer = |x_m: f64, approach| Input::Steer { x_m, y_m: -0.35, approach };
         let mut other = begin(ControllerName::Errt);

@@ -11,7 +11,6 @@
 mod tests;
 
 use std::io::{BufRead, BufReader, Read, Write};
-use std::path::Path;
 
 use flate2::Compression;
 use flate2::read::DeflateDecoder;
@@ -19,7 +18,6 @@ use flate2::write::DeflateEncoder;
 use xxhash_rust::xxh3::xxh3_64_with_seed;
 
 use super::entry::{Entry, LoggedBeginning, LoggedMap};
-use crate::files::{ReadError, read_at_most};
 
 /// Format version. Increase it when an older reader would misread a file.
 const VERSION: u32 = 8;
@@ -27,8 +25,6 @@ const MAGIC: &[u8; 8] = b"ferrylog";
 const FRAME_HEAD: usize = 8;
 /// Bytes of a seal.
 const SEAL: usize = 16;
-/// Maximum file size. A session starts a new file every ten minutes; at 64× speed it reaches a third of this.
-const BYTES_MOST: u64 = 1 << 30;
 /// Maximum unpacked size of frames: so much, and a multiple of their packed size. Logs of sessions unpack to four times
 /// their size; a frame that would unpack to more than this multiple is not packed.
 const UNPACKED_FREE: u64 = 4 << 20;
@@ -65,8 +61,8 @@ pub enum LogError {
     #[error("log: {0}")]
     Io(#[from] std::io::Error),
     /// The file is larger than a log can be.
-    #[error("log: {0}")]
-    Unread(#[from] ReadError),
+    #[error("log: it has {bytes} bytes, the limit is {max}")]
+    TooLarge { bytes: u64, max: u64 },
     /// The unpacked content is too large.
     #[error(
         "log: the frame at byte {byte} and those before it need more than {most} bytes of memory, as no log of a session does"
@@ -169,14 +165,6 @@ pub struct InputLog {
 impl InputLog {
     /// Version of the file format.
     pub const VERSION: u32 = VERSION;
-
-    /// Reads a log from a file.
-    ///
-    /// # Errors
-    /// Those of [`Self::read`]; a file over 1 GiB is rejected without reading it.
-    pub fn open(path: &Path) -> Result<Self, LogError> {
-        Self::read(&read_at_most(path, BYTES_MOST)?)
-    }
 
     /// Reads a log to its end, or to its last complete frame if it is truncated.
     pub fn read(bytes: &[u8]) -> Result<Self, LogError> {

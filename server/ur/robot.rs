@@ -103,7 +103,7 @@ mod tests {
     fn trial(positioner: PositionerKind) -> Trial {
         let start_m = Some(Point2::new(0.0, -0.35));
         let scenario = Scenario { start_m, positioner: Some(positioner), ..Scenario::idle("open", 1) };
-        Trial::new(scenario, Arena::open("open").unwrap()).unwrap()
+        Trial::new(scenario, Arena::shipped("open").unwrap()).unwrap()
     }
 
     #[test]

@@ -14,7 +14,7 @@ use ferry::trial::Arena;
 pub fn benches(c: &mut Criterion) {
     let gpu = Gpu::open(AdapterChoice::Auto).expect("a graphics adapter is needed");
     println!("rendered by {}", gpu.adapter_name());
-    let arena = Arena::open("colon").unwrap();
+    let arena = Arena::shipped("colon").unwrap();
     let mut group = c.benchmark_group("camera");
     let mut at = 0;
     let mut next = || {

@@ -108,7 +108,7 @@ pub fn benches(c: &mut Criterion) {
     });
 
     // All of a tick but the camera: tracker, scoring, hashes and the record besides.
-    let arena = Arena::open("colon").unwrap();
+    let arena = Arena::shipped("colon").unwrap();
     let scenario =
         Scenario { start_m: Some(start), goal_m: Some(path[path.len() / 2].xy()), ..Scenario::idle("colon", 1) };
     let mut trial = Trial::new(scenario, arena).unwrap();

@@ -85,7 +85,7 @@ fn acting(c: &mut Criterion, arena: &Arena, frames: &[(Point2<f64>, CameraFrame)
 }
 
 pub fn benches(c: &mut Criterion) {
-    let arena = Arena::open("colon").unwrap();
+    let arena = Arena::shipped("colon").unwrap();
     let gpu = Gpu::open(AdapterChoice::Auto).unwrap();
     let frames = frames(&arena, &gpu);
     for name in ["colon", "explorer"] {

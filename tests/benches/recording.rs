@@ -26,7 +26,7 @@ fn run_s(arena: &Arc<Arena>, camera: &mut Camera, sink: &mut dyn Sink) -> f64 {
 
 /// Criterion measures one thing after the other; what counts here is their ratio at the same time.
 pub fn benches(_: &mut Criterion) {
-    let arena = Arena::open("colon").unwrap();
+    let arena = Arena::shipped("colon").unwrap();
     let gpu = Gpu::open(AdapterChoice::Auto).expect("a graphics adapter");
     let mut camera = Camera::of(&gpu, arena.static_scene()).unwrap();
     let folder = tempfile::tempdir().unwrap();

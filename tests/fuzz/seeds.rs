@@ -6,11 +6,12 @@ use std::sync::LazyLock;
 use bytes::BytesMut;
 use ferry::geometry::Point2;
 use ferry::map::Map;
+use ferry::open;
 use ferry::plant::PositionerKind;
 use ferry::policy::Policy;
 use ferry::protocol::ClientMessage;
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, Shipped, When};
-use ferry::trial::{Arena, Beginning, Case, Entry, Input, LogWriter, LoggedBeginning, LoggedTick, Source, Trial};
+use ferry::trial::{Arena, Beginning, Entry, Input, LogWriter, LoggedBeginning, LoggedTick, Source, Trial};
 use ferry::ur::controller::Controller;
 use ferry::ur::peer::Peer;
 use ferry::ur::{Arm, rtde};
@@ -111,7 +112,7 @@ fn cases() -> Vec<Vec<u8>> {
     paths.sort();
     let kept = paths.iter().map(|path| std::fs::read(path).unwrap());
     let shipped = Shipped::names().into_iter().map(|name| {
-        let mut case = Case::open(&name).unwrap();
+        let mut case = open::case(&name).unwrap();
         case.scenario.script.extend(script());
         case.inputs = inputs().into_iter().enumerate().map(|(tick, input)| timed(tick as u64, input)).collect();
         serde_json::to_vec(&case).unwrap()

@@ -10,7 +10,8 @@ use crate::learn::{
     Curve, EXAMINATION_SEED, Marks, MazeLattice, RecipeName, SurveyRecipe, SurveyRun, examine_surveys, examine_teacher,
     revision,
 };
-use crate::map::{Map, MazeFamily};
+use crate::map::MazeFamily;
+use crate::open;
 
 /// Instead of the names of maps.
 pub const MAP: &str = "generated";
@@ -33,7 +34,7 @@ pub fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         .into_iter()
         .map(|family| Ok((family.as_str(), MazeLattice::generated(&[family], 1, EXAMINED)?)))
         .collect::<anyhow::Result<_>>()?;
-    let unseen = arguments.unseen.iter().map(|name| Ok((name.as_str(), vec![MazeLattice::of(&Map::open(name)?)])));
+    let unseen = arguments.unseen.iter().map(|name| Ok((name.as_str(), vec![MazeLattice::of(&open::map(name)?)])));
     let unseen: Vec<(&str, Vec<MazeLattice>)> = unseen.collect::<anyhow::Result<_>>()?;
     files::create_folder(out)?;
 

@@ -1,8 +1,6 @@
 //! From the bytes of a file to text: encodings as browsers know them, and compressed drawings.
 
-use std::fs::File;
 use std::io::Read;
-use std::path::Path;
 
 use encoding_rs::{Encoding, UTF_8};
 use flate2::read::MultiGzDecoder;
@@ -30,17 +28,11 @@ pub fn decoded(bytes: &[u8]) -> Result<String, MapError> {
     text(&unpacked)
 }
 
-/// Refuses a file of another format, whatever its size.
-pub fn check_format_of(path: &Path) -> Result<(), MapError> {
-    let mut head = Vec::new();
-    match File::open(path).and_then(|file| file.take(16).read_to_end(&mut head)) {
-        Ok(_) => check_format(&head),
-        Err(error) => Err(MapError::Io { path: path.display().to_string(), error }),
-    }
-}
-
-/// Refuses a file of another format, by its first bytes.
-fn check_format(head: &[u8]) -> Result<(), MapError> {
+/// Refuses a file of another format, by its first 16 bytes.
+///
+/// # Errors
+/// [`MapError::Svg`], with the format.
+pub fn check_format(head: &[u8]) -> Result<(), MapError> {
     let reason = match head {
         [0x89, b'P', b'N', b'G', ..]
         | [0xff, 0xd8, 0xff, ..]

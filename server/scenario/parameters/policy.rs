@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::files::is_name;
+use crate::names::is_name;
 
 /// Which trained policy runs. As text: `auto`, the name of a shipped policy, or that of an added one, `NAME` or
 /// `NAME@HASH`.

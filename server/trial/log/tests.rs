@@ -139,15 +139,6 @@ fn rejects_a_small_file_that_unpacks_to_a_huge_one() {
 }
 
 #[test]
-fn rejects_a_too_large_file_without_reading_it() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("large.ferry");
-    std::fs::File::create(&path).unwrap().set_len(BYTES_MOST + 1).unwrap();
-    let error = InputLog::open(&path).unwrap_err();
-    assert!(matches!(error, LogError::Unread(ReadError::TooLarge { .. })), "{error}");
-}
-
-#[test]
 fn rejects_a_missing_or_foreign_frame() {
     let (bytes, ends, _) = written();
     let without = [&bytes[..ends[0]], &bytes[ends[1]..]].concat();

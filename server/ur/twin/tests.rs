@@ -25,7 +25,7 @@ impl Bench {
     fn new(allows_motion: bool) -> Self {
         let start_m = Some(Point2::new(0.0, -0.35));
         let scenario = Scenario { controller: ControllerName::Errt, start_m, ..Scenario::idle("open", 1) };
-        let trial = Trial::new(scenario, Arena::open("open").unwrap()).unwrap();
+        let trial = Trial::new(scenario, Arena::shipped("open").unwrap()).unwrap();
         let joints_rad = trial.state().world.reference.joints_rad().unwrap();
         let report = Report { joints_rad, robot_mode: RUNNING, safety_mode: NORMAL, ..Report::default() };
         let twin = Twin::new([127, 0, 0, 1].into(), allows_motion);
