@@ -3,14 +3,14 @@
 //! The modules, lowest floor first. A module imports only from floors below it; the test
 //! `tests/house.rs` walks the imports. `ARCHITECTURE.md` lists what each must never know.
 //!
-//! - floor 1: [`geometry`], [`image`], [`names`], [`files`]: frames, poses, shapes; camera frames and gray images; names of
-//!   things that users add; bounded files.
+//! - floor 1: [`geometry`], [`image`], [`names`]: frames, poses, shapes; camera frames and gray images; names of things
+//!   that users add.
 //! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
 //! - floor 3: [`plant`]: arm, bead, contact, disturbance.
 //! - floor 4: [`scenario`], [`tracking`], [`perception`]: set-up of a trial; position; percept.
 //! - floor 5: [`policy`]: network, weights, manifest.
 //! - floor 6: [`control`]: switching law, sub-controllers 1 and 2, limits.
-//! - floor 7: [`trial`]: one episode as a pure, deterministic loop.
+//! - floor 7: [`trial`], [`files`]: one episode as a pure, deterministic loop; bounded files.
 //! - floor 8: [`challenge`], [`program`], [`ur`], [`camera`], [`open`]: a trial for a person's hand: its score and ghosts; questions
 //!   to a program; what the robot's controller says; images by a graphics device; files of what trials
 //!   are made of.
