@@ -3,9 +3,9 @@
 //! The modules, lowest floor first. A module imports only from floors below it; the test
 //! `tests/house.rs` walks the imports. `ARCHITECTURE.md` lists what each must never know.
 //!
-//! - floor 1: [`geometry`], [`image`], [`names`]: frames, poses, shapes; camera frames and gray images; names of things
-//!   that users add.
-//! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
+//! - floor 0: [`schema`], [`names`]: arrays in the description of the API; names of things that users add.
+//! - floor 1: [`geometry`]: frames, poses, shapes.
+//! - floor 2: [`image`], [`robot`], [`magnetics`], [`map`]: one subject each.
 //! - floor 3: [`plant`]: arm, bead, contact, disturbance.
 //! - floor 4: [`scenario`], [`tracking`], [`perception`]: set-up of a trial; position; percept.
 //! - floor 5: [`policy`]: network, weights, manifest.
@@ -61,6 +61,7 @@ pub mod robot;
 mod robot_client;
 pub mod robot_server;
 pub mod scenario;
+pub mod schema;
 pub mod session;
 pub mod tracking;
 pub mod trial;

@@ -9,7 +9,6 @@ mod challenges;
 mod client;
 mod comparison;
 mod conversation;
-mod described;
 mod error;
 mod evaluations;
 mod event;
@@ -18,7 +17,6 @@ mod layers;
 mod lumen;
 mod magnetics;
 mod maps;
-mod numbers;
 mod parameters;
 mod parse;
 mod policies;
@@ -34,6 +32,7 @@ mod trainings;
 mod typescript;
 mod workspace;
 
+pub use crate::schema::{Numbers3, Numbers6, Rows3};
 pub use challenges::{
     AttemptAnswer, AttemptMessage, AttemptQuery, AttemptReport, AttemptScore, AttemptStanding, BoardEntry,
     ChallengeReport, ChallengeSummary, Challenges, DifficultyName, GhostMessage, Ghosts, LossMessage, MishapKind,
@@ -56,7 +55,6 @@ pub use layers::{
 pub use lumen::{Lumen, WallRing};
 pub use magnetics::{Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery};
 pub use maps::{MapCheck, MapFacts, MapReport, NarrowPlace};
-pub use numbers::{Numbers3, Numbers6, Rows3};
 pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};

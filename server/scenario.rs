@@ -8,9 +8,12 @@ mod shipped;
 mod streams;
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use crate::geometry::Point2;
 use crate::plant::PositionerKind;
+use crate::schema::Numbers2;
 
 pub use disturbance::{
     Disturbance, DisturbanceError, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scripted,
@@ -26,7 +29,7 @@ pub use shipped::{Shipped, ShippedError};
 pub use streams::Stream;
 
 /// Sub-controller 2, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ControllerName {
     /// A trained Rainbow-IQN policy (paper, §IV-A).
@@ -100,7 +103,7 @@ pub struct UnknownController {
 }
 
 /// A trial before its first tick.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// Name of the map, or path of an SVG.
@@ -111,15 +114,20 @@ pub struct Scenario {
     #[serde(default)]
     pub positioner: Option<PositionerKind>,
     /// Seed of everything random in the trial.
+    #[ts(type = "number")]
     pub seed: u64,
     /// Parameters at the start.
     #[serde(default)]
     pub parameters: Parameters,
     /// Bead at the start, with the tool above it; if omitted, a random free point.
     #[serde(default)]
+    #[ts(type = "[number, number] | null")]
+    #[schema(value_type = Option<Numbers2>)]
     pub start_m: Option<Point2<f64>>,
     /// Goal at the start; if omitted, the arm holds.
     #[serde(default)]
+    #[ts(type = "[number, number] | null")]
+    #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<Point2<f64>>,
     /// Number of random displacements of the bead during transport.
     #[serde(default)]

@@ -1,12 +1,15 @@
 //! Two controllers at the same trials.
 
+use crate::schema::Numbers2;
 use serde::Serialize;
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::statistics::{LEVEL, PairedCounts, corrected_level, mean};
 use super::{Cell, Episode, Setting};
 
 /// Two controllers compared trial by trial, with the same starts, goals, seeds and disturbances.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct Comparison {
     pub map: String,
     /// Scripted disturbances per trial.
@@ -29,8 +32,10 @@ pub struct Comparison {
     /// Share delivered by the first minus that by the second.
     pub delivered_difference: f64,
     /// Its 95 % interval (Newcombe 1998, method 10).
+    #[schema(value_type = Numbers2)]
     pub delivered_difference95: [f64; 2],
     /// The interval at the level that is corrected for the number of comparisons in the report (Bonferroni).
+    #[schema(value_type = Numbers2)]
     pub delivered_difference_corrected: [f64; 2],
     /// Control steps of the first minus those of the second, where both delivered.
     pub steps: Option<PairedMean>,
@@ -45,12 +50,14 @@ pub struct Comparison {
 }
 
 /// A mean difference.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct PairedMean {
     pub mean: f64,
     /// Its 95 % interval (Student's t).
+    #[schema(value_type = Numbers2)]
     pub interval95: [f64; 2],
     /// The interval at the level that is corrected for the number of comparisons in the report (Bonferroni).
+    #[schema(value_type = Numbers2)]
     pub interval_corrected: [f64; 2],
 }
 

@@ -6,11 +6,12 @@ mod html;
 pub use html::html_document;
 
 use serde::Serialize;
+use utoipa::ToSchema;
 
 use super::{Cell, Comparison, Episode, Failure, PaperRow, Row};
 
 /// The report of an evaluation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
 pub struct Report {
     /// Version of Ferry.
     pub ferry: String,

@@ -1,14 +1,17 @@
 //! Summaries of episodes: the rows of the table.
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::statistics::{LEVEL, wilson95};
 use super::{Cell, Episode, Manner, Setting};
 use crate::geometry::Point2;
 use crate::scenario::ControllerName;
+use crate::schema::Numbers2;
 
 /// One row of the table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Row {
     /// Sub-controller 2.
     pub controller: String,
@@ -22,15 +25,18 @@ pub struct Row {
     /// Trials whose tool reached the goal (paper's test).
     pub successes: u32,
     /// Wilson 95 % interval of `successes / episodes`.
+    #[schema(value_type = Numbers2)]
     pub successes_wilson95: [f64; 2],
     /// Trials whose bead reached the goal.
     pub delivered: u32,
     /// Wilson 95 % interval of `delivered / episodes`.
+    #[schema(value_type = Numbers2)]
     pub wilson95: [f64; 2],
     /// Mean over trials of the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: f64,
     /// Its 95 % interval (Student's t); missing for fewer than two trials.
     #[serde(default)]
+    #[schema(value_type = Option<Numbers2>)]
     pub tracking_error_mean95_m: Option<[f64; 2]>,
     /// Mean over trials of the mean absolute difference in x during transport.
     pub tracking_error_mean_x_m: f64,
@@ -116,7 +122,7 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 /// A trial that did not deliver, with everything needed to repeat it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
 pub struct Failure {
     /// Sub-controller 2.
     pub controller: String,
@@ -130,7 +136,9 @@ pub struct Failure {
     /// Seed of the trial itself.
     pub seed: u64,
     /// Bead and tool at the start.
+    #[schema(value_type = Option<Numbers2>)]
     pub start_m: Option<Point2<f64>>,
+    #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<Point2<f64>>,
     /// Whether the tool came to the goal.
     pub reached: bool,

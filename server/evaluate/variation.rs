@@ -4,6 +4,8 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use crate::scenario::{Kind, Parameter, Parameters, SetError};
 
@@ -13,21 +15,23 @@ const COUNTS: RangeInclusive<u32> = 2..=20;
 pub const VARIED_MOST: usize = 2;
 
 /// A parameter with evenly spaced values, ends included.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Variation {
     /// Name of a parameter that is a number.
+    #[schema(example = "friction")]
     pub name: String,
     /// First value, in the unit of the name.
     pub from: f64,
     /// Last value.
     pub to: f64,
     /// Number of values, 2 to 20.
+    #[schema(minimum = 2, maximum = 20)]
     pub count: u32,
 }
 
 /// A varied parameter's value in one row.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Setting {
     pub name: String,
     pub value: f64,

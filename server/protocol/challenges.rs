@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::numbers::Numbers2;
 use crate::boards::{Entry, Signature};
 use crate::challenge::{
     Attempt, Challenge, ChallengeName, Difficulty, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
 };
 use crate::geometry::Point2;
 use crate::scenario::ControllerName;
+use crate::schema::Numbers2;
 use crate::session::{Ended, Played, Standing};
 use crate::trial::Case;
 

@@ -4,12 +4,12 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::numbers::Numbers2;
 use super::seed;
 use crate::challenge::ChallengeName;
 use crate::geometry::Point2;
 use crate::plant::PositionerKind;
 use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted};
+use crate::schema::Numbers2;
 use crate::session::{Command, Kept};
 use crate::trial::Input;
 

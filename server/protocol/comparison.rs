@@ -5,9 +5,9 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::OverlayMessage;
-use super::numbers::{Numbers2, Numbers4};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
+use crate::schema::{Numbers2, Numbers4};
 use crate::session::{BranchPoint, Progress};
 use crate::trial::{Moment, Motion, TickRecord};
 

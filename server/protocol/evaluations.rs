@@ -6,10 +6,10 @@ use utoipa::ToSchema;
 use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
 use super::jobs::JobStage;
-use super::numbers::Numbers2;
 use crate::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row, Setting, Variation};
 use crate::jobs::Stage;
 use crate::scenario::{ControllerName, RlPolicy};
+use crate::schema::Numbers2;
 
 /// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
 /// same starts, goals and seeds.

@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::numbers::{Lists4, Numbers2, Numbers4, Rows3, Wholes4};
 use crate::control::transport::attractor::Attractor;
 use crate::control::transport::attractor::Flow;
 use crate::control::transport::errt::Errt;
@@ -13,6 +12,7 @@ use crate::geometry::{Point2, Rect};
 use crate::perception::{CellState, ObstacleMap, PixelRect};
 use crate::policy::{Judgement, Policy};
 use crate::scenario::RlPolicy;
+use crate::schema::{Lists4, Numbers2, Numbers4, Rows3, Wholes4};
 use crate::session::{Scenery, View};
 use crate::trial::{Arena, Motion, Sight};
 

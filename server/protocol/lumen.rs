@@ -4,8 +4,8 @@ use serde::Serialize;
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::numbers::Numbers2;
 use crate::plant;
+use crate::schema::Numbers2;
 use crate::trial::{Arena, Moment};
 
 /// The lumen of a session's map. What the walls cover beyond their drawn place is a disc around each point of it, of the

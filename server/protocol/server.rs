@@ -5,7 +5,6 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::lumen::wave_m;
-use super::numbers::{Numbers2, Numbers3, Numbers6};
 use super::{
     AttemptStanding, ComparisonMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding, RobotStanding,
     SeenMessage, TwinStanding,
@@ -14,6 +13,7 @@ use crate::geometry::{Point2, Polygon, Rect};
 use crate::plant::{BEAD_RADIUS_M, PositionerKind};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters, Scenario};
+use crate::schema::{Numbers2, Numbers3, Numbers6};
 use crate::session::{KeptRunSummary, OpenedCase, Scenery, View};
 
 /// Directions in which the scene gives the capture distances.

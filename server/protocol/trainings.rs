@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::numbers::Numbers2;
 use crate::evaluate::wilson95;
 use crate::learn::sweep::STEP_M;
 use crate::learn::{self, Ending, Frame, Marks, Point, Status, Training};
+use crate::schema::Numbers2;
 
 pub use query::{FusionName, RecipeName, TrainingQuery, TrainingSettings};
 

@@ -3,6 +3,8 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use crate::camera::ImageSource;
 use crate::evaluate::EvaluateError;
@@ -14,7 +16,9 @@ use crate::trial::{Beginning, Origin, Phase, Sink, Timed, TrialError};
 const MOST_S: f64 = 900.0;
 
 /// How a trial ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[schema(as = RecoveryOutcome)]
+#[ts(rename = "RecoveryOutcome", rename_all = "snake_case")]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     Delivered,

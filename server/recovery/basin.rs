@@ -5,12 +5,15 @@
 //! (Kish 1965, *Survey Sampling*, §8.2).
 
 use serde::Serialize;
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::{Findings, Outcome};
 use crate::evaluate::{LEVEL, PairedCounts, corrected_level, wilson};
+use crate::schema::Numbers2;
 
 /// The part of a map from which a controller delivers in time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct Basin {
     pub controller: String,
     /// Trials that have ended.
@@ -19,14 +22,16 @@ pub struct Basin {
     /// Share of the map's area, or of all pushes, drags or losses.
     pub share: f64,
     /// Its Wilson 95 % interval.
+    #[schema(value_type = Numbers2)]
     pub share95: [f64; 2],
     /// Area of the basin; only for places.
     pub area_m2: Option<f64>,
+    #[schema(value_type = Option<Numbers2>)]
     pub area95_m2: Option<[f64; 2]>,
 }
 
 /// The basin of one controller minus that of another, at the same cells with the same noise.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct BasinDifference {
     pub controller: String,
     pub against: String,
@@ -37,8 +42,10 @@ pub struct BasinDifference {
     pub neither: u32,
     pub share_difference: f64,
     /// Its 95 % interval (Newcombe 1998, method 10).
+    #[schema(value_type = Numbers2)]
     pub share_difference95: [f64; 2],
     /// The interval at the level that is corrected for the number of differences (Bonferroni).
+    #[schema(value_type = Numbers2)]
     pub share_difference_corrected: [f64; 2],
     /// Difference of the areas; only for places.
     pub area_difference_m2: Option<f64>,

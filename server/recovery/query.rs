@@ -4,6 +4,8 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use crate::scenario::ControllerName;
 use crate::trial::Phase;
@@ -15,7 +17,9 @@ const WITHIN_S: RangeInclusive<f64> = 1.0..=600.0;
 const TRIALS_MOST: usize = 100_000;
 
 /// How the trials of a recovery map are disturbed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[schema(as = RecoveryKind)]
+#[ts(rename = "RecoveryKind", rename_all = "snake_case")]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// The bead is lifted to each cell of a grid.

@@ -3,15 +3,20 @@
 mod html;
 
 use serde::Serialize;
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::findings::Cell;
 use super::{Basin, BasinDifference, Findings, Kind, Spot, Subject};
 use crate::evaluate::ReportError;
 use crate::geometry::Point2;
 use crate::map::Map;
+use crate::schema::Numbers2;
 
 /// The trials of one controller in one cell.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[schema(as = RecoveryCell)]
+#[ts(rename = "RecoveryCell")]
 pub struct CellRow {
     /// Number of the cell.
     pub cell: u32,
@@ -25,13 +30,16 @@ pub struct CellRow {
     pub strength: Option<f64>,
     /// When the tracker becomes blind, after the moment.
     pub at_s: Option<f64>,
+    /// Name of the controller, or of the program.
     pub controller: String,
     pub delivered: u32,
     /// Delivered, but after more than `within_s`.
     pub late: u32,
     pub lost: u32,
+    /// Trials that have ended.
     pub repeats: u32,
     /// Wilson 95 % interval of `delivered / repeats`.
+    #[schema(value_type = Numbers2)]
     pub delivered_wilson95: [f64; 2],
     /// Median time to the delivery, with late ones.
     pub time_s_median: Option<f64>,

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::{Arena, Counters, Input, InputError, LoggedMap, Source, TickRecord, Trial, TrialError};
 use crate::image::ImageSource;
@@ -22,7 +23,7 @@ const REST_S: f64 = 600.0;
 const TICKS_MOST: u64 = 24 * 3600 * 125;
 
 /// A trial that can be run again with the present controllers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// Description.
@@ -34,12 +35,13 @@ pub struct Case {
     /// The inputs, in order of ticks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<Timed>,
+    /// The expected result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
 }
 
 /// An input with its tick.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Timed {
     /// The input is applied after this tick and before the next one.
@@ -48,7 +50,7 @@ pub struct Timed {
 }
 
 /// Expected number of deliveries up to a tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// Deliveries since the start.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
+use utoipa::ToSchema;
 
 use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
 use crate::map::{Map, MapError, READER, first_reader};
@@ -47,13 +48,13 @@ impl LoggedBeginning {
 }
 
 /// A map with its drawing, because shipped maps may change.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LoggedMap {
     /// Name, for people.
     pub name: String,
     /// The drawing.
     pub svg: String,
-    /// Version of the reader that made walls of it ([`crate::map::READER`]).
+    /// Version of the reader that made walls of it; 1 if it is not given.
     #[serde(default = "first_reader")]
     pub reader: u32,
 }

@@ -1,6 +1,7 @@
 //! Inputs of the operator, checked before they change anything.
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::input_error::{InputError, REASON_BYTES_MOST, WAITING_MOST};
 use super::{Event, EventKind, Motion, Phase, Trial, TrialState};
@@ -18,7 +19,7 @@ use crate::scenario::{ControllerName, Disturbance, Parameters, Stream};
 const MEASURED_BEYOND_RAD: f64 = 0.1;
 
 /// An input of a trial; it is logged with the tick that follows it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
     /// Places the goal.
@@ -64,9 +65,13 @@ pub enum Input {
         reason: String,
     },
     /// Joint angles at the next tick, from a program for a UR5.
-    Servo { joints_rad: Joints },
+    Servo {
+        #[schema(value_type = [f64; 6])]
+        joints_rad: Joints,
+    },
     /// At the next tick the arm is where a robot outside of Ferry is. A tick without this moves the simulated arm.
     Mirror {
+        #[schema(value_type = [f64; 6])]
         joints_rad: Joints,
         /// Whether the robot follows Ferry's controllers. If not, something else moves it.
         is_driven: bool,

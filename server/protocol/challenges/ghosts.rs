@@ -7,9 +7,9 @@ use utoipa::ToSchema;
 use super::{AttemptScore, pair};
 use crate::boards::Entry;
 use crate::challenge::{Ghost, Mishap, SAMPLE_TICKS, Trace};
-use crate::protocol::numbers::Numbers2;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
+use crate::schema::Numbers2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]

@@ -6,7 +6,7 @@ use utoipa::ToSchema;
 
 use crate::learn;
 use crate::policy::Fusion;
-use crate::protocol::numbers::Numbers2;
+use crate::schema::Numbers2;
 
 /// Recipe from which the settings start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]

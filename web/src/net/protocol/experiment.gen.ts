@@ -43,6 +43,9 @@ y_max_m: number, };
  */
 export type ControllerName = "rl" | "errt" | "attractor" | "replanner" | "you" | "program" | "robot";
 
+/**
+ * The kind of positioner.
+ */
 export type PositionerKind = "arm" | "planar_stage";
 
 export type Disturbance = { "displace": { x_m: number, y_m: number, } } | { "impulse": { x_n_s: number, y_n_s: number, } } | { "drift": { x_n: number, y_n: number, for_s: number, } } | { "dropout": { for_s: number, } };

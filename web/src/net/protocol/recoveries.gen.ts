@@ -9,7 +9,7 @@ import type { ControllerName } from './experiment.gen';
 export type RecoveryKind = "place" | "push" | "drag" | "blind";
 
 /**
- * How a trial of a recovery map ended.
+ * How a trial ended.
  */
 export type RecoveryOutcome = "delivered" | "late" | "lost";
 
@@ -145,7 +145,7 @@ time_s_median: number | null,
 why: string | null, };
 
 /**
- * The part of a recovery map from which a controller delivers in time.
+ * The part of a map from which a controller delivers in time.
  */
 export type Basin = { controller: string, 
 /**
