@@ -102,6 +102,8 @@ async fn an_attempt_that_was_played_counts_once_and_a_changed_one_does_not() {
     // Connected again, the player has the same seat.
     drop(browser);
     let mut browser = Browser::with(lab.address, &format!("?seat={seat}")).await;
+    // The server may notice later that the other one has left.
+    browser.send(json!({"type": "take_control"})).await;
     assert_eq!(seat_of(browser.until("a greeting", |m| m["type"] == "hello" && m["role"] == "operator").await), seat);
     let elsewhere = json!({"session": "other", "seat": seat, "player": "Eve", "attempt": attempt});
     let (status, problem) = post(NAME, elsewhere).await;
