@@ -52,10 +52,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Polygon, Rect};
-use crate::image::{CameraFrame, Picture};
+use ferry_core::geometry::{Polygon, Rect};
+use ferry_core::image::{CameraFrame, Picture};
 
-pub use crate::image::{CameraError, ImageSource, StaticScene, Subject, VIEW_PX, check_mount};
+pub use ferry_core::image::{CameraError, ImageSource, StaticScene, Subject, VIEW_PX, check_mount};
 pub use gpu::{AdapterChoice, Gpu};
 
 pub const BEAD_RADIUS_M: f64 = 0.0025;

@@ -202,7 +202,7 @@ fn with_changes<T: Serialize + DeserializeOwned>(value: &T, changes: &[String]) 
 mod tests {
     use super::*;
     use crate::learn::Recipe;
-    use crate::policy::{Architecture, Fusion};
+    use ferry_core::policy::{Architecture, Fusion};
 
     fn changed(changes: &[&str]) -> anyhow::Result<Recipe> {
         let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();

@@ -14,10 +14,10 @@ pub use urdf::urdf;
 use nalgebra::{Rotation3, Translation3, UnitQuaternion};
 
 use crate::camera::robot::{BLOCK_COLOR, Material, RobotSolid, solids};
-use crate::geometry::{Isometry3, Vector3};
-use crate::plant::{Plant, Positioner, TOOL_LENGTH_M};
-use crate::robot::{forward, ur5};
-use crate::scenario::Parameters;
+use ferry_core::geometry::{Isometry3, Vector3};
+use ferry_core::plant::{Plant, Positioner, TOOL_LENGTH_M};
+use ferry_core::robot::{forward, ur5};
+use ferry_core::scenario::Parameters;
 
 /// Typical of sintered NdFeB.
 const BLOCK_DENSITY_KG_M3: f64 = 7500.0;

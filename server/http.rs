@@ -37,9 +37,9 @@ use crate::jobs::Queue;
 use crate::learn::{Library, Trainings};
 use crate::recording::{Archive, Retention};
 use crate::recovery::Recoveries;
-use crate::scenario::Scenario;
-use crate::trial::{Catalog, TrialError};
 use crate::ur::{Robot, Twin};
+use ferry_core::scenario::Scenario;
+use ferry_core::trial::{Catalog, TrialError};
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 pub use assets::{EmbeddedFile, Page};

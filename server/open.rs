@@ -6,10 +6,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::files::{ReadError, read_at_most};
-use crate::map::{MAX_SVG_BYTES, Map, MapError, check_format, decoded};
-use crate::policy::{MAX_BYTES, Policy, PolicyError};
-use crate::scenario::{Shipped, ShippedError};
-use crate::trial::{Arena, Case, InputLog, LogError, LoggedMap};
+use ferry_core::map::{MAX_SVG_BYTES, Map, MapError, check_format, decoded};
+use ferry_core::policy::{MAX_BYTES, Policy, PolicyError};
+use ferry_core::scenario::{Shipped, ShippedError};
+use ferry_core::trial::{Arena, Case, InputLog, LogError, LoggedMap};
 
 /// Largest file of a case; an hour of dragging needs a tenth of it.
 const CASE_BYTES_MOST: u64 = 64 << 20;

@@ -5,12 +5,12 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::{mpsc, oneshot};
 
-use crate::control::transport::program::Answer;
-use crate::geometry::Rect;
-use crate::image::ImageSource;
-use crate::perception::Percept;
-use crate::scenario::Parameters;
-use crate::trial::{Input, Question, REASON_BYTES_MOST, Seen, Source, TickRecord, Trial, TrialError};
+use ferry_core::control::transport::program::Answer;
+use ferry_core::geometry::Rect;
+use ferry_core::image::ImageSource;
+use ferry_core::perception::Percept;
+use ferry_core::scenario::Parameters;
+use ferry_core::trial::{Input, Question, REASON_BYTES_MOST, Seen, Source, TickRecord, Trial, TrialError};
 
 /// A live session waits this long for an answer; then the arm holds for this control step.
 pub const LIVE_WITHIN: Duration = Duration::from_millis(100);

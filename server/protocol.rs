@@ -17,7 +17,6 @@ mod layers;
 mod lumen;
 mod magnetics;
 mod maps;
-mod parameters;
 mod parse;
 mod policies;
 mod programs;
@@ -32,7 +31,6 @@ mod trainings;
 mod typescript;
 mod workspace;
 
-pub use crate::schema::{Numbers3, Numbers6, Rows3};
 pub use challenges::{
     AttemptAnswer, AttemptMessage, AttemptQuery, AttemptReport, AttemptScore, AttemptStanding, BoardEntry,
     ChallengeReport, ChallengeSummary, Challenges, DifficultyName, GhostMessage, Ghosts, LossMessage, MishapKind,
@@ -47,6 +45,7 @@ pub use evaluations::{
     PaperRow,
 };
 pub use event::EventMessage;
+pub use ferry_core::schema::{Numbers3, Numbers6, Rows3};
 pub use jobs::JobStage;
 pub use layers::{
     BlocksLayer, FLOW_SPACING_M, FlowField, FlowQuery, JudgementLayer, OverlayMessage, PixelBlock, PlanLayer,

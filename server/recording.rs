@@ -22,9 +22,9 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::geometry::Point2;
-use crate::scenario::Scenario;
-use crate::trial::{
+use ferry_core::geometry::Point2;
+use ferry_core::scenario::Scenario;
+use ferry_core::trial::{
     Arena, Beginning, Event, LogError, LoggedBeginning, LoggedTick, Moment, Sight, Sink, TickRecord, Trial,
 };
 

@@ -35,14 +35,14 @@ use std::time::Duration;
 use tokio::sync::{broadcast, oneshot, watch};
 
 use crate::camera::{Camera, Gpu};
-use crate::challenge::{Challenge, ChallengeName};
-use crate::plant::PositionerKind;
 use crate::program::Program;
-use crate::scenario::{Parameters, Scenario};
-use crate::trial::{
+use crate::ur::{Robot, Standing as RobotStanding, Twin, TwinStanding};
+use ferry_core::challenge::{Challenge, ChallengeName};
+use ferry_core::plant::PositionerKind;
+use ferry_core::scenario::{Parameters, Scenario};
+use ferry_core::trial::{
     Arena, Case, Catalog, Event, Input, LogError, Moment, Origin, Sight, Sink, Timed, Trial, TrialError,
 };
-use crate::ur::{Robot, Standing as RobotStanding, Twin, TwinStanding};
 
 pub use branch_point::{BranchPoint, Progress};
 pub use error::CommandError;

@@ -5,9 +5,9 @@ use std::process::{Command, Output};
 
 use ferry::boards::{Boards, Signature};
 use ferry::camera::Camera;
-use ferry::challenge::{Attempt, Challenge, Run};
-use ferry::geometry::Point2;
-use ferry::trial::{Case, Input, Source, Timed, Trial};
+use ferry_core::challenge::{Attempt, Challenge, Run};
+use ferry_core::geometry::Point2;
+use ferry_core::trial::{Case, Input, Source, Timed, Trial};
 use serde_json::{Value, json};
 
 use crate::support::{ferry, gpu, tool};

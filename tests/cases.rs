@@ -5,7 +5,7 @@ use std::path::Path;
 
 use ferry::camera::Camera;
 use ferry::open;
-use ferry::trial::{Arena, Case};
+use ferry_core::trial::{Arena, Case};
 use serde_json::{Value, json};
 
 use crate::support::{Browser, Laboratory, ferry, gpu};
@@ -17,7 +17,7 @@ fn kept() -> Vec<std::path::PathBuf> {
     paths
 }
 
-fn run(case: &Case) -> ferry::trial::CaseOutcome {
+fn run(case: &Case) -> ferry_core::trial::CaseOutcome {
     let arena = open::arena_of(case).unwrap();
     let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
     case.run(&arena, &mut camera, &mut |_| ControlFlow::Continue(())).unwrap()
@@ -163,7 +163,7 @@ async fn an_opened_case_repeats_its_inputs_also_after_a_rewind_and_a_reset() {
 async fn impossible_inputs_of_an_opened_case_are_left_out_and_reported() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
-    let scenario = serde_json::to_value(ferry::scenario::Scenario::idle("posts", 1)).unwrap();
+    let scenario = serde_json::to_value(ferry_core::scenario::Scenario::idle("posts", 1)).unwrap();
     let outside = json!({"set_goal": {"x_m": 5.0, "y_m": 0.0}});
     let inputs =
         json!([{"tick": 10, "input": outside}, {"tick": 10, "input": outside}, {"tick": 10, "input": "clear_goal"}]);
@@ -189,7 +189,7 @@ async fn a_case_with_its_own_drawing_opens_where_the_map_is_unknown() {
     let (status, added) = lab.ask("POST", "/api/maps?name=mine", &svg).await;
     assert_eq!((status, &added["name"]), (201, &json!("mine")), "{added}");
     let case = |name: &str, svg: &str| {
-        let scenario = serde_json::to_value(ferry::scenario::Scenario::idle(name, 1)).unwrap();
+        let scenario = serde_json::to_value(ferry_core::scenario::Scenario::idle(name, 1)).unwrap();
         json!({"about": "", "scenario": scenario, "map": {"name": name, "svg": svg}}).to_string()
     };
     for name in ["mine", "elsewhere"] {

@@ -1,9 +1,9 @@
 //! Challenges over HTTP and the WebSocket: an attempt is played in real time, judged, and put on the board.
 
 use ferry::camera::Camera;
-use ferry::challenge::Challenge;
-use ferry::geometry::Point2;
-use ferry::scenario::ControllerName;
+use ferry_core::challenge::Challenge;
+use ferry_core::geometry::Point2;
+use ferry_core::scenario::ControllerName;
 use serde_json::{Value, json};
 
 use crate::support::{Browser, Laboratory, gpu};

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use ferry::trial::{InputLog, replay};
+use ferry_core::trial::{InputLog, replay};
 
 use crate::support::{Ferry, ferry};
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use ferry::policy::Policy;
+use ferry_core::policy::Policy;
 use serde_json::{Value, json};
 
 use crate::support::{Browser, Ferry, ferry, tool};

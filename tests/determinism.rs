@@ -3,12 +3,12 @@
 use std::sync::{Arc, OnceLock};
 
 use ferry::camera::{Camera, CameraError, ImageSource, Subject};
-use ferry::geometry::Point2;
-use ferry::image::CameraFrame;
-use ferry::plant::{BeadMotion, PositionerKind, ToolOrientation};
-use ferry::policy::Shipped;
-use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
-use ferry::trial::{
+use ferry_core::geometry::Point2;
+use ferry_core::image::CameraFrame;
+use ferry_core::plant::{BeadMotion, PositionerKind, ToolOrientation};
+use ferry_core::policy::Shipped;
+use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
+use ferry_core::trial::{
     Arena, Beginning, Deciding, Entry, Input, InputLog, LogWriter, LoggedBeginning, LoggedTick, Motion, ReplayError,
     Replayed, Source, Trial, World, replay,
 };

@@ -1,10 +1,10 @@
 //! Scripted disturbances: kicks, pushes, displacements, dropouts; and trials without an arm.
 
 use ferry::camera::Camera;
-use ferry::geometry::Point2;
-use ferry::plant::PositionerKind;
-use ferry::scenario::{Disturbance, Parameters, Scenario, Scripted, When};
-use ferry::trial::{Arena, EventKind, Moment, Phase, Source, TickRecord, Trial, TrialError};
+use ferry_core::geometry::Point2;
+use ferry_core::plant::PositionerKind;
+use ferry_core::scenario::{Disturbance, Parameters, Scenario, Scripted, When};
+use ferry_core::trial::{Arena, EventKind, Moment, Phase, Source, TickRecord, Trial, TrialError};
 
 use crate::support::gpu;
 

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use ferry::evaluate::{Cell, PaperRow};
-use ferry::map::{Map, MazeFamily};
-use ferry::plant::BEAD_RADIUS_M;
-use ferry::scenario::ControllerName;
+use ferry_core::map::{Map, MazeFamily};
+use ferry_core::plant::BEAD_RADIUS_M;
+use ferry_core::scenario::ControllerName;
 use serde_json::Value;
 
 use crate::support::ferry;

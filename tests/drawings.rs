@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use ferry::map::{Map, MapError};
 use ferry::open;
+use ferry_core::map::{Map, MapError};
 
 const FOLDER: &str = "tests/drawings";
 

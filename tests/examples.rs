@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use ferry::camera::Camera;
 use ferry::evaluate::{Episode, Trace, Venue, episode};
-use ferry::map::Map;
-use ferry::scenario::{AttractorLaw, ControllerName, Parameters, Scenario, Shipped};
-use ferry::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
+use ferry_core::map::Map;
+use ferry_core::scenario::{AttractorLaw, ControllerName, Parameters, Scenario, Shipped};
+use ferry_core::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
 
 use crate::support::gpu;
 

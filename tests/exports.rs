@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use ferry::plant::Positioner;
-use ferry::robot::{Joints, forward};
+use ferry_core::plant::Positioner;
+use ferry_core::robot::{Joints, forward};
 use nalgebra::{Isometry3, Matrix4};
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ferry::http::Token;
-use ferry::image::Picture;
+use ferry_core::image::Picture;
 use serde_json::{Value, json};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::TcpStream;

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use ciborium::Value;
 use ferry::recording::{Archive, Options, Recorder, Retention};
-use ferry::scenario::{ControllerName, Scenario};
 use ferry::session::{Command, Opening, Session};
-use ferry::trial::{Catalog, Entry, Input, InputLog};
+use ferry_core::scenario::{ControllerName, Scenario};
+use ferry_core::trial::{Catalog, Entry, Input, InputLog};
 use flate2::{Compression, write::DeflateEncoder};
 use rayon::prelude::*;
 use xxhash_rust::xxh3::xxh3_64_with_seed;

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Output;
 
-use ferry::image::Picture;
+use ferry_core::image::Picture;
 
 use crate::support::ferry;
 

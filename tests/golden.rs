@@ -7,11 +7,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ferry::camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
-use ferry::geometry::{Point2, Point3};
-use ferry::image::{CameraMount, Picture};
-use ferry::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrientation, WallMotion};
-use ferry::scenario::Parameters;
-use ferry::trial::Arena;
+use ferry_core::geometry::{Point2, Point3};
+use ferry_core::image::{CameraMount, Picture};
+use ferry_core::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrientation, WallMotion};
+use ferry_core::scenario::Parameters;
+use ferry_core::trial::Arena;
 
 /// Maximum share of different pixels.
 const MOST_DIFFERENT: f64 = 0.001;

@@ -4,12 +4,12 @@ use std::sync::atomic::AtomicBool;
 
 use ferry::camera::Camera;
 use ferry::evaluate::{Cell, Experiment, Manner, Venue, Watch, run, unrecorded};
-use ferry::map::Map;
 use ferry::open;
-use ferry::perception::{Observation, Percept};
-use ferry::policy::Policy;
-use ferry::scenario::{ControllerName, Parameters, RlPolicy, Scenario};
-use ferry::trial::{Arena, Trial};
+use ferry_core::map::Map;
+use ferry_core::perception::{Observation, Percept};
+use ferry_core::policy::Policy;
+use ferry_core::scenario::{ControllerName, Parameters, RlPolicy, Scenario};
+use ferry_core::trial::{Arena, Trial};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

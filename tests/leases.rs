@@ -131,7 +131,7 @@ async fn a_drawing_is_checked_without_being_added() {
     let (status, problem) = lab.ask("POST", "/api/map-checks", "<svg").await;
     assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("map_refused"), &json!("map")));
     let (_, list) = lab.ask("GET", "/api/maps", "").await;
-    assert_eq!(list["maps"], json!(ferry::map::Map::shipped_names()));
+    assert_eq!(list["maps"], json!(ferry_core::map::Map::shipped_names()));
     lab.close().await;
 }
 

@@ -1,10 +1,10 @@
 //! The numbers in the texts of the page's lessons, from the simulator. `FERRY_GENERATE=1 cargo test --release lessons`
 //! renews them.
 
-use ferry::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery, pull, reach};
-use ferry::magnetics::dipole::weight_n;
-use ferry::magnetics::force::Orientation;
-use ferry::scenario::Parameters;
+use ferry_core::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery, pull, reach};
+use ferry_core::magnetics::dipole::weight_n;
+use ferry_core::magnetics::force::Orientation;
+use ferry_core::scenario::Parameters;
 
 const PATH: &str = "web/src/features/lessons/facts.gen.ts";
 const FARTHEST_M: f64 = 0.15;

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use ferry::plant::{BeadMotion, PositionerKind};
 use ferry::recording::{Archive, Options, Recorder, Retention};
-use ferry::robot::Joints;
-use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
 use ferry::session::{Command, Kept, Opening, Session};
-use ferry::trial::{Catalog, Input, InputLog, LogError, Replayed, replay};
+use ferry_core::plant::{BeadMotion, PositionerKind};
+use ferry_core::robot::Joints;
+use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario};
+use ferry_core::trial::{Catalog, Input, InputLog, LogError, Replayed, replay};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

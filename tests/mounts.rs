@@ -3,13 +3,13 @@
 use std::ops::ControlFlow;
 
 use ferry::camera::Camera;
-use ferry::control::Refusal;
 use ferry::evaluate::{Venue, episode};
-use ferry::geometry::{Point2, Vector2};
-use ferry::map::FreeSpace;
-use ferry::perception::{CellState, ObstacleMap, Percept, wall_spread};
-use ferry::scenario::{CLEARANCE_M, ControllerName, Parameters, Scenario};
-use ferry::trial::{Arena, Nowhere, Source, Trial};
+use ferry_core::control::Refusal;
+use ferry_core::geometry::{Point2, Vector2};
+use ferry_core::map::FreeSpace;
+use ferry_core::perception::{CellState, ObstacleMap, Percept, wall_spread};
+use ferry_core::scenario::{CLEARANCE_M, ControllerName, Parameters, Scenario};
+use ferry_core::trial::{Arena, Nowhere, Source, Trial};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -62,7 +62,7 @@ fn what_the_magnet_hides_is_neither_free_nor_wall() {
         let arena = Arena::shipped(map).unwrap();
         let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();
         let parameters = realistic();
-        let spread = wall_spread(parameters.camera_height_m, ferry::map::WALL_HEIGHT_M);
+        let spread = wall_spread(parameters.camera_height_m, ferry_core::map::WALL_HEIGHT_M);
         // The magnet hides what is to the left; there it must be in the workspace.
         for place in places(map, 40).into_iter().filter(|place| place.x > -0.12) {
             let trial = idle(map, &parameters, place);

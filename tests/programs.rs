@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use ferry::camera::{Camera, ImageSource};
-use ferry::geometry::Point2;
-use ferry::policy::Shipped;
-use ferry::scenario::{ControllerName, Scenario};
-use ferry::trial::{
+use ferry_core::geometry::Point2;
+use ferry_core::policy::Shipped;
+use ferry_core::scenario::{ControllerName, Scenario};
+use ferry_core::trial::{
     Arena, Beginning, Deciding, Entry, Input, InputError, InputLog, LoggedBeginning, LoggedTick, Phase,
     REASON_BYTES_MOST, Seen, Source, Trial, replay,
 };

@@ -91,7 +91,7 @@ async fn the_list_says_what_is_being_written_and_what_is_not_ours() {
     assert!(file.body.starts_with(b"RRF2"));
     let log = lab.bytes(&format!("/api/recordings/{}.ferry", closed["id"].as_str().unwrap())).await;
     assert_eq!(log.len() as u64, closed["log_bytes"].as_u64().unwrap());
-    assert!(ferry::trial::InputLog::read(&log).is_ok());
+    assert!(ferry_core::trial::InputLog::read(&log).is_ok());
     assert_eq!(lab.ask("GET", "/api/recordings/mine.ferry", "").await.0, 404);
     lab.close().await;
 }

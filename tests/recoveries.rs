@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use ferry::camera::Camera;
 use ferry::open;
-use ferry::trial::{Case, CaseOutcome};
+use ferry_core::trial::{Case, CaseOutcome};
 
 use crate::support::{Browser, Laboratory, ferry, files, gpu};
 

@@ -7,12 +7,12 @@
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
-use ferry::geometry::{Isometry3, Matrix6, UnitQuaternion, Vector3};
-use ferry::magnetics::cuboid::Cuboid;
-use ferry::magnetics::dipole::{self, BLOCK_REMANENCE_T};
-use ferry::magnetics::force::{self, Orientation};
-use ferry::magnetics::posed::PosedBlock;
-use ferry::robot::{Joints, forward, inverse, jacobian};
+use ferry_core::geometry::{Isometry3, Matrix6, UnitQuaternion, Vector3};
+use ferry_core::magnetics::cuboid::Cuboid;
+use ferry_core::magnetics::dipole::{self, BLOCK_REMANENCE_T};
+use ferry_core::magnetics::force::{self, Orientation};
+use ferry_core::magnetics::posed::PosedBlock;
+use ferry_core::robot::{Joints, forward, inverse, jacobian};
 use nalgebra::{Quaternion, SVector, Translation3};
 use num_dual::DualNumCopy;
 use rand::{RngExt, SeedableRng};

@@ -4,12 +4,12 @@
 use std::sync::Arc;
 
 use ferry::camera::{AdapterChoice, Camera, Gpu, StaticScene, Subject, VIEW_PX};
-use ferry::geometry::{Point2, Point3, Polygon, Rect, Vector2};
-use ferry::image::{CameraFrame, CameraMount};
-use ferry::map::{Map, WALL_HEIGHT_M};
-use ferry::perception::Percept;
-use ferry::plant::BEAD_RADIUS_M;
-use ferry::trial::Arena;
+use ferry_core::geometry::{Point2, Point3, Polygon, Rect, Vector2};
+use ferry_core::image::{CameraFrame, CameraMount};
+use ferry_core::map::{Map, WALL_HEIGHT_M};
+use ferry_core::perception::Percept;
+use ferry_core::plant::BEAD_RADIUS_M;
+use ferry_core::trial::Arena;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -9,7 +9,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use ferry::http::Token;
-use ferry::trial::InputLog;
+use ferry_core::trial::InputLog;
 use futures_util::StreamExt;
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::json;

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use ferry::camera::Camera;
-use ferry::control::transport::rl::Rl;
-use ferry::control::transport::{Transport, TransportInput};
-use ferry::geometry::Point2;
 use ferry::learn::MazeLattice;
-use ferry::map::{MazeFamily, WALL_HEIGHT_M};
-use ferry::perception::{Area, ObstacleMap, Percept, wall_spread};
-use ferry::policy::{Policy, Survey};
-use ferry::scenario::{Parameters, Scenario};
-use ferry::trial::{Arena, Trial};
+use ferry_core::control::transport::rl::Rl;
+use ferry_core::control::transport::{Transport, TransportInput};
+use ferry_core::geometry::Point2;
+use ferry_core::map::{MazeFamily, WALL_HEIGHT_M};
+use ferry_core::perception::{Area, ObstacleMap, Percept, wall_spread};
+use ferry_core::policy::{Policy, Survey};
+use ferry_core::scenario::{Parameters, Scenario};
+use ferry_core::trial::{Arena, Trial};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -44,7 +44,7 @@ fn perception_gives_the_survey_that_training_has() {
     let mut rng = ChaCha8Rng::seed_from_u64(3);
     let (mut compared, mut open) = (0, 0);
     for (family, seed) in [(MazeFamily::Tubes, 3), (MazeFamily::Stones, 4), (MazeFamily::Rooms, 5)] {
-        let maze = ferry::map::Maze::generate(family, seed).unwrap();
+        let maze = ferry_core::map::Maze::generate(family, seed).unwrap();
         let lattice = MazeLattice::of(&maze.map);
         let arena = Arena::of(maze.map);
         let mut camera = Camera::of(&gpu(), arena.static_scene()).unwrap();

@@ -3,12 +3,12 @@
 use std::ops::ControlFlow;
 
 use ferry::camera::Camera;
-use ferry::control::Refusal;
-use ferry::control::switching::Mode;
 use ferry::evaluate::{Venue, episode};
-use ferry::geometry::Point2;
-use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
-use ferry::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
+use ferry_core::control::Refusal;
+use ferry_core::control::switching::Mode;
+use ferry_core::geometry::Point2;
+use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
+use ferry_core::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use ferry::policy::{Manifest, Policy};
+use ferry_core::policy::{Manifest, Policy};
 use serde_json::{Value, json};
 
 use crate::support::{Browser, Laboratory, ferry};
@@ -102,7 +102,7 @@ async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
 /// A small policy: its weights do not matter here.
 fn file(seed: u64) -> Vec<u8> {
     let bytes = Policy::shipped_bytes("colon").unwrap();
-    let weights = ferry::policy::weights(&bytes).unwrap();
+    let weights = ferry_core::policy::weights(&bytes).unwrap();
     let manifest = Manifest { seed, ..Policy::from_bytes(&bytes).unwrap().manifest().clone() };
     let specs = manifest.architecture.tensors().into_iter();
     let weights: Vec<_> = specs.map(|spec| (spec.clone(), weights[&spec.name].clone())).collect();

@@ -15,7 +15,7 @@ use ferry::open;
 use ferry::program::{Connection, Program};
 use ferry::protocol::{Conversation, Outgoing};
 use ferry::recovery::{self, Findings, Recovery, RecoveryPart, RecoveryPlan, RecoveryQuery};
-use ferry::scenario::{ControllerName, Parameters};
+use ferry_core::scenario::{ControllerName, Parameters};
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use ferry::learn::sweep::{STEP_M, Sweep};
 use ferry::learn::{Ending, Lane, Lanes, Recipe, Terrain};
 use ferry::open;
-use ferry::trial::{Arena, LoggedMap};
+use ferry_core::trial::{Arena, LoggedMap};
 use numpy::{PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};

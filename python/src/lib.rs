@@ -9,9 +9,9 @@ use std::ffi::OsString;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ferry::camera::{AdapterChoice, Gpu};
-use ferry::geometry::Rect;
-use ferry::image::GrayImage;
-use ferry::perception::{OBSERVATION_SIZE_PX, Observation};
+use ferry_core::geometry::Rect;
+use ferry_core::image::GrayImage;
+use ferry_core::perception::{OBSERVATION_SIZE_PX, Observation};
 use numpy::ndarray::{ArrayD, IxDyn};
 use numpy::{PyArray, PyReadonlyArray2};
 use pyo3::PyTypeInfo;

@@ -3,11 +3,11 @@
 use std::sync::{Arc, Mutex};
 
 use ferry::camera::{Camera, Gpu};
-use ferry::geometry::Point2;
 use ferry::open;
-use ferry::perception::OBSERVATION_SIZE_PX;
-use ferry::scenario::{ControllerName, LEAST_DISTANCE_M, Parameters, Scenario};
-use ferry::trial::{Arena, Input, LoggedMap, Phase, Question, Seen, Source, StopReason, Trial, TrialState};
+use ferry_core::geometry::Point2;
+use ferry_core::perception::OBSERVATION_SIZE_PX;
+use ferry_core::scenario::{ControllerName, LEAST_DISTANCE_M, Parameters, Scenario};
+use ferry_core::trial::{Arena, Input, LoggedMap, Phase, Question, Seen, Source, StopReason, Trial, TrialState};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
@@ -180,7 +180,7 @@ impl Mazes {
         let workspace = self.arena.map.workspace();
         let scaled = |lane: &Lane| {
             let goal_m = lane.trial.state().world.goal_m.unwrap_or(lane.seen.tool_m);
-            [goal_m, lane.seen.tool_m].map(|place| ferry::perception::Observation::scaled(place, workspace))
+            [goal_m, lane.seen.tool_m].map(|place| ferry_core::perception::Observation::scaled(place, workspace))
         };
         let numbers = self.lanes.iter().flat_map(scaled).flatten().map(|level| f32::from(level) / 255.0);
         array(py, &[self.lanes.len(), 4], numbers.collect())

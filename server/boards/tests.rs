@@ -1,7 +1,7 @@
 use super::*;
-use crate::challenge::{Challenge, Sample};
-use crate::geometry::Point2;
-use crate::trial::{Case, Input, Timed};
+use ferry_core::challenge::{Challenge, Sample};
+use ferry_core::geometry::Point2;
+use ferry_core::trial::{Case, Input, Timed};
 
 fn signed(player: &str, class: Option<&str>) -> Signature {
     Signature { player: player.into(), class: class.map(str::to_owned), at: "2026-11-26T12:00:00Z".into() }

@@ -9,7 +9,7 @@ use super::Subject;
 use super::geometry_buffers::{Part, Solid};
 use super::mesh::Color;
 use super::robot::{BLOCK_COLOR, Material, solids};
-use crate::geometry::{Isometry3, Point3, Vector3};
+use ferry_core::geometry::{Isometry3, Point3, Vector3};
 
 const METAL: Color = opaque(Material::Metal.color());
 const LID: Color = opaque(Material::Lid.color());

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use super::mesh::{Color, Mesh};
 use super::static_scene::{SHADOW_LIFT_M, border, flat, floor};
 use super::{BEAD_RADIUS_M, StaticScene};
-use crate::geometry::{Band, Point3, Polygon, Rect, Vector3};
+use ferry_core::geometry::{Band, Point3, Polygon, Rect, Vector3};
 
 /// Colours before lighting.
 mod colors {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::geometry::{Point3, Vector3};
+use ferry_core::geometry::{Point3, Vector3};
 
 /// Red, green, blue as in an image file; alpha is how the scene lights it: 255 fully lit, 0 emissive.
 pub(super) type Color = [u8; 4];

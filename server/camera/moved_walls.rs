@@ -3,8 +3,8 @@
 use super::diorama;
 use super::mesh::Mesh;
 use super::static_scene::{SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers, side_color};
-use crate::geometry::{Band, Point3, Rect, Vector3};
-use crate::image::Pinhole;
+use ferry_core::geometry::{Band, Point3, Rect, Vector3};
+use ferry_core::image::Pinhole;
 
 /// A wall that moved less than this is drawn at rest.
 const LEAST_M: f64 = 1e-5;

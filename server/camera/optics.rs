@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use crate::geometry::{Point3, Rect, Vector2, Vector3};
-use crate::image::Pinhole;
+use ferry_core::geometry::{Point3, Rect, Vector2, Vector3};
+use ferry_core::image::Pinhole;
 
 /// Near plane, as a share of the camera's height above the table.
 const NEAR: f64 = 0.02;
@@ -158,8 +158,8 @@ fn ball_around(points: &[Point3<f64>]) -> (Point3<f64>, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point2;
-    use crate::image::CameraMount;
+    use ferry_core::geometry::Point2;
+    use ferry_core::image::CameraMount;
 
     #[test]
     fn the_pinhole_puts_table_metres_on_pixels() {

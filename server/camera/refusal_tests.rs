@@ -2,7 +2,7 @@
 
 use super::test_support::{WORKSPACE, block, gpu, posts, static_scene, subject};
 use super::*;
-use crate::image::CameraMount;
+use ferry_core::image::CameraMount;
 
 #[test]
 fn refuses_bad_requests_and_names_the_field() {

@@ -3,7 +3,7 @@
 //! The housings between the joint frames follow the real arm, whose upper arm and forearm run beside the joints'
 //! common plane.
 
-use crate::robot::ur5::{A2_M, A3_M, D1_M, D4_M, D5_M, D6_M, FOREARM_ASIDE_M, UPPER_ARM_ASIDE_M};
+use ferry_core::robot::ur5::{A2_M, A3_M, D1_M, D4_M, D5_M, D6_M, FOREARM_ASIDE_M, UPPER_ARM_ASIDE_M};
 
 /// Radii of the housings around the joints. The shoulder's value holds for the first two joints.
 const SHOULDER_RADIUS_M: f64 = 0.060;

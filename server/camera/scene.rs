@@ -11,8 +11,8 @@ use super::mesh::{self, Color};
 use super::pipeline::{self, Pass, bind, pipeline};
 use super::target::{DEPTH_FORMAT, Target};
 use super::{BEAD_RADIUS_M, CameraError, Quality, StaticScene, Subject, Viewpoint, arm, diorama, moved_walls, optics};
-use crate::geometry::{Point3, Rect, Vector3};
-use crate::image::Picture;
+use ferry_core::geometry::{Point3, Rect, Vector3};
+use ferry_core::image::Picture;
 
 pub(super) const SHADER: &str = include_str!("../../shaders/scene.wgsl");
 

@@ -4,7 +4,7 @@ use earcut::Earcut;
 
 use super::mesh::{Color, Mesh};
 use super::{CameraError, StaticScene};
-use crate::geometry::{Point3, Polygon, Rect, Vector3};
+use ferry_core::geometry::{Point3, Polygon, Rect, Vector3};
 
 const MAX_WALL_M: f64 = 1.0;
 

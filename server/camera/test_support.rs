@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{AdapterChoice, Gpu, StaticScene, Subject};
-use crate::geometry::{Isometry3, Polygon, Rect, Vector3};
-use crate::image::CameraMount;
+use ferry_core::geometry::{Isometry3, Polygon, Rect, Vector3};
+use ferry_core::image::CameraMount;
 use nalgebra::{Translation3, UnitQuaternion};
 
 pub const WORKSPACE: Rect = Rect { x_min_m: -0.30, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };

@@ -2,8 +2,8 @@
 
 use super::test_support::{WALL_HEIGHT_M, WORKSPACE, block, gpu, posts, static_scene, subject};
 use super::*;
-use crate::geometry::Point2;
-use crate::image::GrayImage;
+use ferry_core::geometry::Point2;
+use ferry_core::image::GrayImage;
 
 /// The point where a pixel's ray meets the plane at height `z_m`.
 fn ground(frame: &CameraFrame, column: u32, row: u32, z_m: f64) -> Point2<f64> {

@@ -10,8 +10,8 @@ use super::pipeline::{self, Pass, bind, pipeline};
 use super::static_scene::{self, SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers};
 use super::target::Target;
 use super::{BEAD_RADIUS_M, CameraError, StaticScene, Subject, arm, moved_walls, optics};
-use crate::geometry::Point2;
-use crate::image::{CameraFrame, Picture};
+use ferry_core::geometry::Point2;
+use ferry_core::image::{CameraFrame, Picture};
 
 pub(super) const SHADER: &str = include_str!("../../shaders/view.wgsl");
 

@@ -12,7 +12,7 @@ use self::episode::Episode;
 use self::minari::{DATA_SET, DataSet};
 use crate::boards::{Boards, Kept};
 use crate::camera::Camera;
-use crate::challenge::{AttemptError, Challenge, ChallengeName};
+use ferry_core::challenge::{AttemptError, Challenge, ChallengeName};
 
 #[derive(clap::Subcommand)]
 pub enum Command {

@@ -18,8 +18,8 @@ use crate::evaluate::{
 use crate::files::replace;
 use crate::open;
 use crate::recording::Recorder;
-use crate::scenario::{ControllerName, Parameters};
-use crate::trial::{Nowhere, Sink};
+use ferry_core::scenario::{ControllerName, Parameters};
+use ferry_core::trial::{Nowhere, Sink};
 
 pub use output::Output;
 pub(super) use output::{interval, table};

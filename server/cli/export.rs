@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use anyhow::Context;
 
 use crate::export::{mjcf, urdf};
-use crate::scenario::Parameters;
+use ferry_core::scenario::Parameters;
 
 #[derive(clap::Args)]
 pub struct Arguments {

@@ -2,11 +2,11 @@
 
 use std::process::ExitCode;
 
-use crate::map::{FreeSpace, Summary};
 use crate::open;
-use crate::plant::BEAD_RADIUS_M;
-use crate::scenario::CLEARANCE_M;
-use crate::trial::Arena;
+use ferry_core::map::{FreeSpace, Summary};
+use ferry_core::plant::BEAD_RADIUS_M;
+use ferry_core::scenario::CLEARANCE_M;
+use ferry_core::trial::Arena;
 
 /// Limit of printed notes: one mistake is often repeated everywhere in a drawing.
 const SHOWN_NOTES: usize = 20;

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use anyhow::Context;
 
-use crate::map::{Maze, MazeFamily};
+use ferry_core::map::{Maze, MazeFamily};
 
 #[derive(clap::Subcommand)]
 pub enum Command {

@@ -15,8 +15,8 @@ use crate::files::replace;
 use crate::jobs::Life;
 use crate::recording::Recorder;
 use crate::recovery::{Findings, Kind, Outcome, Recovery, RecoveryPart, RecoveryPlan, RecoveryQuery, Report, Subject};
-use crate::scenario::ControllerName;
-use crate::trial::{Nowhere, Sink};
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::{Nowhere, Sink};
 
 #[derive(clap::Args)]
 pub struct Arguments {

@@ -10,12 +10,12 @@ use anyhow::Context;
 use crate::camera::{Camera, Subject};
 use crate::evaluate::Trace;
 use crate::files::read_at_most;
-use crate::geometry::{Point2, Point3};
-use crate::image::Picture;
 use crate::open;
-use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, WallMotion};
-use crate::scenario::{ControllerName, Parameters};
-use crate::trial::Tally;
+use ferry_core::geometry::{Point2, Point3};
+use ferry_core::image::Picture;
+use ferry_core::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, WallMotion};
+use ferry_core::scenario::{ControllerName, Parameters};
+use ferry_core::trial::Tally;
 
 /// Largest golden picture.
 const PNG_BYTES_MOST: u64 = 64 << 20;

@@ -9,8 +9,8 @@ use anyhow::Context;
 use crate::camera::{Camera, CameraError, ImageSource};
 use crate::learn::Library;
 use crate::open;
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::{Arena, Deciding, Entry, replay};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::trial::{Arena, Deciding, Entry, replay};
 
 #[derive(clap::Args)]
 pub struct Arguments {

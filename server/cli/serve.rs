@@ -16,8 +16,8 @@ use crate::open;
 use crate::recording::Retention;
 use crate::robot_client;
 use crate::robot_server::{self, Ports};
-use crate::scenario::Scenario;
 use crate::ur::{Twin, model::Model};
+use ferry_core::scenario::Scenario;
 
 /// When the server has stopped: time for background work to end.
 const END_WITHIN: Duration = Duration::from_secs(1);

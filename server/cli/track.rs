@@ -6,7 +6,7 @@ use anyhow::{Context, ensure};
 use serde::Serialize;
 
 use crate::evaluate::tracking::{Aim, Course, Followed, PUBLISHED_RMSE_M, SIZES_M, SPEEDS_M_S, Shape, WIDTHS_M};
-use crate::scenario::Parameters;
+use ferry_core::scenario::Parameters;
 
 #[derive(clap::Args)]
 pub struct Arguments {

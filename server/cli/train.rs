@@ -19,7 +19,7 @@ use crate::learn::{
     State, Terrain, drive, revision, wall_waves_m,
 };
 use crate::open;
-use crate::policy::{Architecture, Policy};
+use ferry_core::policy::{Architecture, Policy};
 
 const CHECKPOINT_PERIOD: Duration = Duration::from_secs(60);
 

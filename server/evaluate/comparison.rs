@@ -1,6 +1,6 @@
 //! Two controllers at the same trials.
 
-use crate::schema::Numbers2;
+use ferry_core::schema::Numbers2;
 use serde::Serialize;
 use ts_rs::TS;
 use utoipa::ToSchema;

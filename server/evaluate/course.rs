@@ -1,9 +1,9 @@
 //! Length of the tool's path during transport, compared with the shortest path.
 
-use crate::control::switching::Mode;
-use crate::geometry::Point2;
-use crate::map::FreeSpace;
-use crate::trial::{Moment, Phase};
+use ferry_core::control::switching::Mode;
+use ferry_core::geometry::Point2;
+use ferry_core::map::FreeSpace;
+use ferry_core::trial::{Moment, Phase};
 
 /// With less progress than this, the ratio is meaningless.
 const LEAST_PROGRESS_M: f64 = 0.05;

@@ -6,10 +6,10 @@ use std::time::Instant;
 use super::variation::applied;
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
 use crate::jobs::Life;
-use crate::map::Map;
-use crate::policy::Policies;
 use crate::program::Program;
-use crate::scenario::{Parameters, SetError};
+use ferry_core::map::Map;
+use ferry_core::policy::Policies;
+use ferry_core::scenario::{Parameters, SetError};
 
 #[derive(Debug)]
 pub struct Evaluation {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Evaluation, EvaluationQuery, QueryError};
 use crate::jobs::{Queue, QueueError, Shelf};
 use crate::program::Program;
-use crate::trial::Catalog;
+use ferry_core::trial::Catalog;
 
 /// Why an evaluation is rejected.
 #[derive(Debug, thiserror::Error)]

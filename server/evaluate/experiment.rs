@@ -13,13 +13,13 @@ use super::figure::Trace;
 use super::manner::Manner;
 use super::{Cell, DISTURBANCES, Setting, VariationError};
 use crate::camera::{Camera, CameraError, Gpu, ImageSource, Subject};
-use crate::control::CONTROL_PERIOD_S;
-use crate::image::CameraFrame;
-use crate::map::{FreeSpace, MapError};
-use crate::plant::BEAD_RADIUS_M;
 use crate::program::{self, Carrier, Program, ProgramError};
-use crate::scenario::{ControllerName, Parameters, Scenario};
-use crate::trial::{
+use ferry_core::control::CONTROL_PERIOD_S;
+use ferry_core::image::CameraFrame;
+use ferry_core::map::{FreeSpace, MapError};
+use ferry_core::plant::BEAD_RADIUS_M;
+use ferry_core::scenario::{ControllerName, Parameters, Scenario};
+use ferry_core::trial::{
     Arena, Beginning, GOAL_RADIUS_M, LEGS_PER_GOAL, Nowhere, Phase, Sink, Tally, TickRecord, TrialError,
 };
 

@@ -4,10 +4,10 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Point2, Rect};
-use crate::map::Map;
-use crate::scenario::Scenario;
-use crate::trial::{EventKind, TickRecord};
+use ferry_core::geometry::{Point2, Rect};
+use ferry_core::map::Map;
+use ferry_core::scenario::Scenario;
+use ferry_core::trial::{EventKind, TickRecord};
 
 const SIZE_PX: (u32, u32) = (1200, 900);
 const TOOL: RGBColor = RGBColor(10, 99, 194);

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use super::{CellResult, EvaluateError, Evaluation, Progress, VariationError, Venue, Watch, run, unrecorded};
 use crate::jobs::{Life, Shelved, Stage, Workshop};
-use crate::map::MapError;
-use crate::trial::Arena;
+use ferry_core::map::MapError;
+use ferry_core::trial::Arena;
 
 impl Shelved for Evaluation {
     type Found = Progress;
@@ -62,9 +62,9 @@ mod tests {
     use crate::camera::{AdapterChoice, Gpu};
     use crate::evaluate::{Cell, EvaluationQuery};
     use crate::jobs::Job;
-    use crate::map::Map;
-    use crate::policy::Shipped;
-    use crate::scenario::{ControllerName, RlPolicy};
+    use ferry_core::map::Map;
+    use ferry_core::policy::Shipped;
+    use ferry_core::scenario::{ControllerName, RlPolicy};
 
     fn evaluation(map: &str) -> Arc<Evaluation> {
         let cell = Cell {

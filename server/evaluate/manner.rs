@@ -7,11 +7,11 @@ use std::sync::Arc;
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
-use crate::control::CONTROL_PERIOD_S;
-use crate::geometry::Point2;
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{RandomTrialError, Scenario, Stream};
-use crate::trial::{Arena, Input, Phase, Trial, TrialError, far_point};
+use ferry_core::control::CONTROL_PERIOD_S;
+use ferry_core::geometry::Point2;
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::{RandomTrialError, Scenario, Stream};
+use ferry_core::trial::{Arena, Input, Phase, Trial, TrialError, far_point};
 
 /// Speed of a person's hand that draws the bead through a maze.
 const HAND_SPEED_M_S: f64 = 0.2;
@@ -144,8 +144,8 @@ impl Person {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::BEAD_RADIUS_M;
-    use crate::scenario::ControllerName;
+    use ferry_core::plant::BEAD_RADIUS_M;
+    use ferry_core::scenario::ControllerName;
 
     #[test]
     fn a_pointer_moves_at_its_speed_and_stays_at_its_end() {

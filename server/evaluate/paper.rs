@@ -2,7 +2,7 @@
 
 use super::Cell;
 use super::statistics::wilson95;
-use crate::scenario::ControllerName;
+use ferry_core::scenario::ControllerName;
 
 /// The paper's numbers for a row.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,8 +6,8 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use super::shard::{Machine, MergeError, PartError, Piece, Shard, check_all, read_part};
 use super::{Cell, Episode, Experiment, Manner};
-use crate::scenario::{ControllerName, Parameters};
-use crate::trial::TrialError;
+use ferry_core::scenario::{ControllerName, Parameters};
+use ferry_core::trial::TrialError;
 
 /// Format of a shard's file.
 const FORMAT: u32 = 1;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::variation::applied;
 use super::{Cell, Experiment, Manner, Setting, Variation, VariationError, Venue};
-use crate::map::MapError;
 use crate::open;
-use crate::policy::Policy;
 use crate::program::Program;
-use crate::scenario::{ControllerName, Parameters, SetError};
+use ferry_core::map::MapError;
+use ferry_core::policy::Policy;
+use ferry_core::scenario::{ControllerName, Parameters, SetError};
 
 /// Who carries the bead.
 #[derive(Clone)]

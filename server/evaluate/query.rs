@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::variation::applied;
 use super::{Setting, Variation, VariationError};
-use crate::map::{Library, Map, MapError};
-use crate::policy::PolicyError;
-use crate::scenario::{ControllerName, Parameters, RlPolicy};
+use ferry_core::map::{Library, Map, MapError};
+use ferry_core::policy::PolicyError;
+use ferry_core::scenario::{ControllerName, Parameters, RlPolicy};
 
 /// Maximum number of cells per evaluation: three controllers over 8 × 8 values of two parameters have 192.
 pub const CELL_LIMIT: usize = 240;

@@ -10,7 +10,7 @@ use serde_json::Value;
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::Experiment;
-use crate::trial::TrialError;
+use ferry_core::trial::TrialError;
 
 /// Largest number of shards.
 const SHARDS_MOST: u32 = 10_000;

@@ -6,9 +6,9 @@ use utoipa::ToSchema;
 
 use super::statistics::{LEVEL, wilson95};
 use super::{Cell, Episode, Manner, Setting};
-use crate::geometry::Point2;
-use crate::scenario::ControllerName;
-use crate::schema::Numbers2;
+use ferry_core::geometry::Point2;
+use ferry_core::scenario::ControllerName;
+use ferry_core::schema::Numbers2;
 
 /// One row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

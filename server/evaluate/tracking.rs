@@ -10,15 +10,15 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::camera::{Camera, Gpu};
-use crate::control::CONTROL_PERIOD_S;
 use crate::evaluate::EvaluateError;
-use crate::geometry::{Point2, Point3, Vector2};
-use crate::magnetics::dipole;
-use crate::map::{Map, MapError};
-use crate::plant::{Plant, Positioner};
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, Parameters, Scenario};
-use crate::trial::{Arena, Input, Source, Trial};
+use ferry_core::control::CONTROL_PERIOD_S;
+use ferry_core::geometry::{Point2, Point3, Vector2};
+use ferry_core::magnetics::dipole;
+use ferry_core::map::{Map, MapError};
+use ferry_core::plant::{Plant, Positioner};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::{ControllerName, Parameters, Scenario};
+use ferry_core::trial::{Arena, Input, Source, Trial};
 
 /// Root mean square errors of arXiv 2601.15545, square and circle.
 pub const PUBLISHED_RMSE_M: [f64; 2] = [0.00118, 0.0015];
@@ -192,7 +192,7 @@ impl Course {
     /// # Errors
     /// The trial could not be set up, or the camera failed.
     pub fn run(&self, gpu: &Arc<Gpu>) -> Result<Followed, EvaluateError> {
-        let arena = Arena::of(self.map().map_err(crate::trial::TrialError::from)?);
+        let arena = Arena::of(self.map().map_err(ferry_core::trial::TrialError::from)?);
         let parameters = Parameters {
             transport_speed_m_s: (CATCH_UP * self.speed_m_s).clamp(0.01, 0.079),
             step_limit: 5000,
@@ -206,7 +206,7 @@ impl Course {
             ..Scenario::idle("open", self.seed)
         };
         let mut trial = Trial::new(scenario, arena.clone())?;
-        let mut camera = Camera::of(gpu, arena.static_scene()).map_err(crate::trial::TrialError::from)?;
+        let mut camera = Camera::of(gpu, arena.static_scene()).map_err(ferry_core::trial::TrialError::from)?;
         let lag_m = if self.aim == Aim::Point { 0.0 } else { self.lag_m() };
         let lap_s = self.length_m() / self.speed_m_s;
         let (mut squares, mut across_squares, mut most_m, mut scored): (f64, f64, f64, u32) = (0.0, 0.0, 0.0, 0);
@@ -214,7 +214,7 @@ impl Course {
         for tick in 0..(LAPS * lap_s / SERVO_PERIOD_S) as u64 {
             let time_s = tick as f64 * SERVO_PERIOD_S;
             if trial.step_is_due() {
-                let seen = trial.see(&mut camera).map_err(crate::trial::TrialError::from)?;
+                let seen = trial.see(&mut camera).map_err(ferry_core::trial::TrialError::from)?;
                 steps += 1;
                 if let Some(question) = trial.question(&seen) {
                     let (next, along) = self.point(time_s + CONTROL_PERIOD_S);
@@ -224,7 +224,7 @@ impl Course {
                     }
                     trial
                         .apply(Input::Go { x_m: target_m.x, y_m: target_m.y })
-                        .map_err(crate::trial::TrialError::from)?;
+                        .map_err(ferry_core::trial::TrialError::from)?;
                 } else {
                     not_carried += 1;
                 }

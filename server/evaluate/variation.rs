@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::scenario::{Kind, Parameter, Parameters, SetError};
+use ferry_core::scenario::{Kind, Parameter, Parameters, SetError};
 
 /// Number of values of one parameter.
 const COUNTS: RangeInclusive<u32> = 2..=20;

@@ -2,10 +2,10 @@
 
 use super::xml::{Element, rgba};
 use super::{Form, Link, Shape, links};
-use crate::geometry::{Isometry3, Point3};
-use crate::plant::{Positioner, PositionerKind};
-use crate::robot::ur5::JOINT_LIMIT_RAD;
-use crate::scenario::Parameters;
+use ferry_core::geometry::{Isometry3, Point3};
+use ferry_core::plant::{Positioner, PositionerKind};
+use ferry_core::robot::ur5::JOINT_LIMIT_RAD;
+use ferry_core::scenario::Parameters;
 
 /// Stiffness of a joint's servo per newton metre of its largest torque, 1/rad.
 const STIFFNESS_PER_RAD: f64 = 13.0;

@@ -2,9 +2,9 @@
 
 use super::xml::{Element, rgba};
 use super::{Form, Inertia, Link, Shape, links, roll_pitch_yaw};
-use crate::geometry::Isometry3;
-use crate::robot::ur5::{JOINT_LIMIT_RAD, JOINT_SPEED_LIMIT_RAD_S};
-use crate::scenario::Parameters;
+use ferry_core::geometry::Isometry3;
+use ferry_core::robot::ur5::{JOINT_LIMIT_RAD, JOINT_SPEED_LIMIT_RAD_S};
+use ferry_core::scenario::Parameters;
 
 /// The URDF of the arm with gripper and magnet. Needs no other file.
 pub fn urdf(parameters: &Parameters) -> String {

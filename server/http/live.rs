@@ -31,9 +31,9 @@ use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
 use super::socket::{Incoming, Limits, Socket, Upgrade};
 use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, MAX_MESSAGE_BYTES, ServerMessage};
-use crate::scenario::ControllerName;
 use crate::session::{Command, CommandError};
-use crate::trial::Case;
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::Case;
 
 const LIMITS: Limits = Limits { message_bytes: MAX_MESSAGE_BYTES, ping_every: Duration::from_secs(15) };
 /// Of a browser that joins when [`LARGE_SEATS`] are taken: room for everything but test cases.

@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use utoipa::IntoParams;
 
 use super::problem::Problem;
-use crate::scenario::ControllerName;
+use ferry_core::scenario::ControllerName;
 
 /// The parameters, by name.
 pub struct Path<T>(pub T);

@@ -7,9 +7,9 @@ use std::time::Duration;
 
 use super::live::Hub;
 use crate::files::replace;
-use crate::scenario::ControllerName;
 use crate::session::{Opening, Saved, Session, View};
-use crate::trial::LogError;
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::LogError;
 
 pub const SAVE_EVERY: Duration = Duration::from_secs(1);
 /// A hanging session must not keep the others from being saved.

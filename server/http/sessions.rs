@@ -16,10 +16,10 @@ use super::problem::Problem;
 use super::saved_sessions::{SAVE_EVERY, SavedSessions};
 use crate::camera::Gpu;
 use crate::recording::{Archive, Options, Recorder};
-use crate::scenario::Scenario;
 use crate::session::{Command, CommandError, Opening, Session};
-use crate::trial::{Catalog, Nowhere, Sink, TrialError};
 use crate::ur::{Robot, Twin};
+use ferry_core::scenario::Scenario;
+use ferry_core::trial::{Catalog, Nowhere, Sink, TrialError};
 
 /// The session that exists from the start.
 pub const MAIN: &str = "main";

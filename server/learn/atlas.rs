@@ -10,9 +10,9 @@ use super::learner::{features_of, features_of_all};
 use super::sweep::{STEP_M, Sweep, SweepError, cells, center};
 use super::terrain::places;
 use crate::camera::Gpu;
-use crate::geometry::{Point2, Rect};
-use crate::policy::{BATCH, Fusion, Judgement, Policy, PolicyError};
-use crate::trial::Arena;
+use ferry_core::geometry::{Point2, Rect};
+use ferry_core::policy::{BATCH, Fusion, Judgement, Policy, PolicyError};
+use ferry_core::trial::Arena;
 
 /// Largest number of places, twice that of the paper's table: an image of each takes milliseconds.
 const MAX_PLACES: usize = 4000;

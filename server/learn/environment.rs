@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::goals::GoalSet;
 use super::recipe::{EPISODE_STEPS, Recipe};
 use super::terrain::{GOAL_JITTER_M, Terrain, UNREACHABLE};
-use crate::geometry::{Point2, Vector2};
-use crate::trial::GOAL_RADIUS_M;
+use ferry_core::geometry::{Point2, Vector2};
+use ferry_core::trial::GOAL_RADIUS_M;
 
 /// Draws of a goal. From a cell that no goal can be reached from, all are in vain.
 const DRAWS: u32 = 100_000;

@@ -3,7 +3,7 @@
 use super::checkpoint::CheckpointError;
 use super::recipe::RecipeError;
 use super::sweep::SweepError;
-use crate::policy::PolicyError;
+use ferry_core::policy::PolicyError;
 
 /// Why a run cannot start or continue.
 #[derive(Debug, thiserror::Error)]

@@ -10,7 +10,7 @@ use super::goals::GoalSet;
 use super::learner::{best, features_of, features_of_all};
 use super::recipe::Recipe;
 use super::terrain::{Terrain, views};
-use crate::policy::{ACTING_FRACTIONS, Fusion, Network, acting_fractions};
+use ferry_core::policy::{ACTING_FRACTIONS, Fusion, Network, acting_fractions};
 
 /// Episodes that are stepped together.
 const TOGETHER: usize = 250;

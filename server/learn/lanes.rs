@@ -10,7 +10,7 @@ use super::environment::{Ending, Episode, Goal};
 use super::goals::GoalSet;
 use super::recipe::{Recipe, RecipeError};
 use super::terrain::{GOAL_JITTER_M, Terrain, UNREACHABLE};
-use crate::geometry::Point2;
+use ferry_core::geometry::Point2;
 
 /// Far below the size of a cell.
 const ROUNDING_M: f64 = 1e-9;
@@ -246,7 +246,7 @@ mod tests {
     fn episodes_begin_at_given_places() {
         let mut lanes = lanes(1, 1).unwrap();
         let [start, goal] = [0, 25].map(|cell| lanes.terrain[0].center_m(cell));
-        let off = goal + crate::geometry::Vector2::new(0.002, -0.0049);
+        let off = goal + ferry_core::geometry::Vector2::new(0.002, -0.0049);
         for seed in 0..50 {
             lanes.start(0, Some(seed), Some(start), Some(off)).unwrap();
             let [tool_m, goal_m] = lanes.places_m(0);

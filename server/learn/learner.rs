@@ -11,8 +11,8 @@ use super::networks::{Descent, Memory, Networks};
 use super::recipe::{EPISODE_STEPS, Recipe};
 use super::replay::{Replay, Transition};
 use super::terrain::{Terrain, views};
-use crate::perception::OBSERVATION_SIZE_PX;
-use crate::policy::{Fusion, Network, acting_fractions, images};
+use ferry_core::perception::OBSERVATION_SIZE_PX;
+use ferry_core::policy::{Fusion, Network, acting_fractions, images};
 
 /// Cells whose features are computed together, so that their columns stay in the CPU cache.
 const CHUNK: usize = 32;

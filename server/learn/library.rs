@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
 use crate::files::{read_at_most, replace};
-use crate::names::is_name;
 use crate::open;
-use crate::policy::{MAX_BYTES, Policies, Policy, PolicyError, Shipped};
-use crate::scenario::{AddedPolicy, RlPolicy};
+use ferry_core::names::is_name;
+use ferry_core::policy::{MAX_BYTES, Policies, Policy, PolicyError, Shipped};
+use ferry_core::scenario::{AddedPolicy, RlPolicy};
 
 /// Largest number of added policies; each has about a megabyte.
 pub const ADDED_POLICIES: usize = 32;

@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
-use crate::policy::{Architecture, Network, PolicyError, TensorSpec, weights};
+use ferry_core::policy::{Architecture, Network, PolicyError, TensorSpec, weights};
 
 type NetworkResult<T> = candle_core::Result<T>;
 

@@ -4,8 +4,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::goals::GoalSet;
-use crate::policy::{Architecture, Fusion};
-use crate::scenario::Parameters;
+use ferry_core::policy::{Architecture, Fusion};
+use ferry_core::scenario::Parameters;
 
 /// Steps of an episode (paper, §IV-A).
 pub const EPISODE_STEPS: u32 = 150;

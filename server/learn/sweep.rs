@@ -11,15 +11,15 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::{Camera, CameraError, Gpu, Subject, VIEW_PX};
-use crate::control::TargetStep;
-use crate::geometry::{Band, Point2, Point3, Rect};
-use crate::image::CameraMount;
-use crate::map::READER;
-use crate::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
-use crate::plant::{BEAD_RADIUS_M, Positioner, PositionerKind};
-use crate::policy::Action;
-use crate::scenario::Parameters;
-use crate::trial::Arena;
+use ferry_core::control::TargetStep;
+use ferry_core::geometry::{Band, Point2, Point3, Rect};
+use ferry_core::image::CameraMount;
+use ferry_core::map::READER;
+use ferry_core::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
+use ferry_core::plant::{BEAD_RADIUS_M, Positioner, PositionerKind};
+use ferry_core::policy::Action;
+use ferry_core::scenario::Parameters;
+use ferry_core::trial::Arena;
 
 /// Step of the policy, and distance between two places in training (paper, §IV-A).
 pub const STEP_M: f64 = 0.01;
@@ -59,7 +59,7 @@ pub struct Sweep {
     /// Steps of 1 cm that [`Limits::step`] admits from the cell, decided from the cell's image: bit `i` for
     /// `Action::ALL[i]`.
     ///
-    /// [`Limits::step`]: crate::control::limits::Limits::step
+    /// [`Limits::step`]: ferry_core::control::limits::Limits::step
     pub steps: Vec<u8>,
     /// Distance from the tool to the nearest wall in the image, in tenths of a millimetre; 255 if it is more.
     pub wall_distance: Vec<u8>,
@@ -305,7 +305,7 @@ mod tests {
 
     use super::*;
     use crate::camera::AdapterChoice;
-    use crate::map::Map;
+    use ferry_core::map::Map;
 
     fn arena() -> Arc<Arena> {
         let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 200 120 100">

@@ -2,13 +2,13 @@
 
 use std::collections::VecDeque;
 
-use crate::geometry::{Point2, Rect};
-use crate::perception::Observation;
-use crate::plant::{Peristalsis, WallMotion};
-use crate::policy::Action;
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::Parameters;
-use crate::trial::{Arena, GOAL_RADIUS_M};
+use ferry_core::geometry::{Point2, Rect};
+use ferry_core::perception::Observation;
+use ferry_core::plant::{Peristalsis, WallMotion};
+use ferry_core::policy::Action;
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::Parameters;
+use ferry_core::trial::{Arena, GOAL_RADIUS_M};
 
 use super::sweep::{IMAGE_BYTES, STEP_M, Sweep, center};
 

@@ -19,7 +19,7 @@ use super::replay::{Replay, Transition};
 use super::run::Run;
 use super::sweep::STEP_M;
 use super::terrain::Terrain;
-use crate::policy::{Manifest, Policy};
+use ferry_core::policy::{Manifest, Policy};
 
 /// Updates between two small examinations.
 const EXAMINED_EVERY: u64 = 1000;

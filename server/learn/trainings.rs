@@ -15,9 +15,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::library::Library;
 use super::sweep::{STEP_M, cells};
 use crate::jobs::{Queue, QueueError};
-use crate::map::{self, Map, READER};
-use crate::policy::Policy;
-use crate::trial::Arena;
+use ferry_core::map::{self, Map, READER};
+use ferry_core::policy::Policy;
+use ferry_core::trial::Arena;
 use folder::Record;
 
 pub use frame::{Cells, Frame, Trail};

@@ -7,14 +7,14 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use crate::boards::{Entry, Signature};
-use crate::challenge::{
+use crate::session::{Ended, Played, Standing};
+use ferry_core::challenge::{
     Attempt, Challenge, ChallengeName, Difficulty, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
 };
-use crate::geometry::Point2;
-use crate::scenario::ControllerName;
-use crate::schema::Numbers2;
-use crate::session::{Ended, Played, Standing};
-use crate::trial::Case;
+use ferry_core::geometry::Point2;
+use ferry_core::scenario::ControllerName;
+use ferry_core::schema::Numbers2;
+use ferry_core::trial::Case;
 
 pub use ghosts::{GhostMessage, Ghosts, MishapKind, MishapMessage, TraceMessage};
 

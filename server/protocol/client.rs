@@ -5,13 +5,13 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::seed;
-use crate::challenge::ChallengeName;
-use crate::geometry::Point2;
-use crate::plant::PositionerKind;
-use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted};
-use crate::schema::Numbers2;
 use crate::session::{Command, Kept};
-use crate::trial::Input;
+use ferry_core::challenge::ChallengeName;
+use ferry_core::geometry::Point2;
+use ferry_core::plant::PositionerKind;
+use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted};
+use ferry_core::schema::Numbers2;
+use ferry_core::trial::Input;
 
 /// A message from a browser. Positions are in metres in `base`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

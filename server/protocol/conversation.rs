@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::{ErrorMessage, ProgramAnswer, ProgramMessage};
-use crate::control::transport::program::Answer;
 use crate::program::{Leg, Reply, Sent};
-use crate::trial::REASON_BYTES_MOST;
+use ferry_core::control::transport::program::Answer;
+use ferry_core::trial::REASON_BYTES_MOST;
 
 /// The questions and answers of one program.
 pub struct Conversation {
@@ -112,7 +112,7 @@ mod tests {
         };
         let (mut first, mut second, mut third) = (ask(1), ask(2), ask(3));
         conversation.take(r#"{"type":"act","request":2,"target_m":[0.1,-0.3]}"#).unwrap();
-        assert_eq!(second.try_recv(), Ok(Answer::Go { target_m: crate::geometry::Point2::new(0.1, -0.3) }));
+        assert_eq!(second.try_recv(), Ok(Answer::Go { target_m: ferry_core::geometry::Point2::new(0.1, -0.3) }));
         conversation.take(r#"{"type":"hold","request":1,"reason":"no idea"}"#).unwrap();
         assert_eq!(first.try_recv(), Ok(Answer::Hold { reason: "mine: no idea".to_owned() }));
         for request in [2, 9] {

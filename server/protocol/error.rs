@@ -5,7 +5,7 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use crate::session::CommandError;
-use crate::trial::{InputError, TrialError};
+use ferry_core::trial::{InputError, TrialError};
 
 /// See `ServerMessage::Error`; an HTTP problem has the same fields.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

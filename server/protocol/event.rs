@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::{Event, EventKind};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::trial::{Event, EventKind};
 
 /// See `ServerMessage::Event`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

@@ -4,17 +4,17 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::control::transport::attractor::Attractor;
-use crate::control::transport::attractor::Flow;
-use crate::control::transport::errt::Errt;
-use crate::control::transport::rl::{Decision, Rl};
-use crate::geometry::{Point2, Rect};
-use crate::perception::{CellState, ObstacleMap, PixelRect};
-use crate::policy::{Judgement, Policy};
-use crate::scenario::RlPolicy;
-use crate::schema::{Lists4, Numbers2, Numbers4, Rows3, Wholes4};
 use crate::session::{Scenery, View};
-use crate::trial::{Arena, Motion, Sight};
+use ferry_core::control::transport::attractor::Attractor;
+use ferry_core::control::transport::attractor::Flow;
+use ferry_core::control::transport::errt::Errt;
+use ferry_core::control::transport::rl::{Decision, Rl};
+use ferry_core::geometry::{Point2, Rect};
+use ferry_core::perception::{CellState, ObstacleMap, PixelRect};
+use ferry_core::policy::{Judgement, Policy};
+use ferry_core::scenario::RlPolicy;
+use ferry_core::schema::{Lists4, Numbers2, Numbers4, Rows3, Wholes4};
+use ferry_core::trial::{Arena, Motion, Sight};
 
 /// An obstacle as sensed for the attractor: a superellipse of exponent 4.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

@@ -4,9 +4,9 @@ use serde::Serialize;
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::plant;
-use crate::schema::Numbers2;
-use crate::trial::{Arena, Moment};
+use ferry_core::plant;
+use ferry_core::schema::Numbers2;
+use ferry_core::trial::{Arena, Moment};
 
 /// The lumen of a session's map. What the walls cover beyond their drawn place is a disc around each point of it, of the
 /// radius `min(wave, limit_m, room)` at vertices and linear between them. The wave is `StateMessage.wave_m`, interpolated

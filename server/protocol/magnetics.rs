@@ -7,9 +7,9 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 use utoipa::openapi::schema::{Object, ObjectBuilder, Type};
 
-use crate::magnetics::force::Orientation;
-use crate::magnetics::{curves, plane};
-use crate::schema::Numbers2;
+use ferry_core::magnetics::force::Orientation;
+use ferry_core::magnetics::{curves, plane};
+use ferry_core::schema::Numbers2;
 
 /// The derive does not accept constants as limits.
 fn direction() -> Object {

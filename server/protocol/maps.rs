@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::geometry::{Polygon, Rect};
-use crate::map::{Map, Narrow, Summary};
-use crate::plant::PositionerKind;
+use ferry_core::geometry::{Polygon, Rect};
+use ferry_core::map::{Map, Narrow, Summary};
+use ferry_core::plant::PositionerKind;
 
 /// A passage between two rooms of a map.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

@@ -7,8 +7,8 @@ use utoipa::ToSchema;
 use super::trainings::{Examination, TrainingPoint, TrainingQuery};
 use crate::learn;
 use crate::learn::{Added, Library};
-use crate::policy::{Manifest, Policies as _, Policy};
-use crate::scenario::RlPolicy;
+use ferry_core::policy::{Manifest, Policies as _, Policy};
+use ferry_core::scenario::RlPolicy;
 
 /// How a policy was trained on this server.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

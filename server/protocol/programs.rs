@@ -5,10 +5,10 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::ErrorMessage;
-use crate::control::transport::program::Answer;
-use crate::geometry::{Point2, Rect};
 use crate::program::{Asked, LIVE_WITHIN, Leg, Program};
-use crate::scenario::Parameters;
+use ferry_core::control::transport::program::Answer;
+use ferry_core::geometry::{Point2, Rect};
+use ferry_core::scenario::Parameters;
 
 /// Version of these messages. Increase it when an old program could misread the server.
 pub const PROGRAM_PROTOCOL_VERSION: u32 = 1;

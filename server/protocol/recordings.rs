@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::scenario::ControllerName;
+use ferry_core::scenario::ControllerName;
 
 /// Answer of `GET /api/recordings`.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]

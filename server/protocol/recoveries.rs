@@ -6,8 +6,8 @@ use utoipa::ToSchema;
 
 use super::jobs::JobStage;
 use crate::recovery::{self, Basin, BasinDifference, CellRow, Findings, Kind, Outcome, RecoveryJob, Tried};
-use crate::scenario::ControllerName;
-use crate::schema::Numbers2;
+use ferry_core::scenario::ControllerName;
+use ferry_core::schema::Numbers2;
 
 /// Body of `POST /api/recoveries`. The moment is one of a session, or the start of a scenario or of a random trial.
 #[derive(Clone, Debug, PartialEq, Deserialize, TS, ToSchema)]

@@ -3,9 +3,9 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use crate::geometry::Point2;
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::World;
+use ferry_core::geometry::Point2;
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::trial::World;
 
 /// The bead as the tracker reports it to the controllers, not its true place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, ToSchema)]
@@ -61,10 +61,10 @@ impl From<&World> for TrackerEstimate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Vector2;
-    use crate::scenario::Scenario;
-    use crate::tracking::TrackerParameters;
-    use crate::trial::{Arena, Trial};
+    use ferry_core::geometry::Vector2;
+    use ferry_core::scenario::Scenario;
+    use ferry_core::tracking::TrackerParameters;
+    use ferry_core::trial::{Arena, Trial};
 
     #[test]
     fn it_is_what_the_tracker_reports_and_ages_while_no_sample_arrives() {

@@ -11,7 +11,7 @@ use utoipa::ToSchema;
 use crate::evaluate::wilson95;
 use crate::learn::sweep::STEP_M;
 use crate::learn::{self, Ending, Frame, Marks, Point, Status, Training};
-use crate::schema::Numbers2;
+use ferry_core::schema::Numbers2;
 
 pub use query::{FusionName, RecipeName, TrainingQuery, TrainingSettings};
 

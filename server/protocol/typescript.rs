@@ -11,22 +11,22 @@ use ts_rs::{Config, TS};
 
 use super::*;
 use crate::camera::VIEW_PX;
-use crate::control::CONTROL_PERIOD_S;
-use crate::control::transport::errt::MOST_EDGES;
 use crate::evaluate::{Comparison, PairedMean, Row, Setting, Variation};
-use crate::geometry::{Polygon, Rect};
 use crate::learn::Recipe;
-use crate::magnetics::force::FARTHEST_M;
-use crate::map::{MAX_SVG_BYTES, Map, WALL_HEIGHT_M};
-use crate::perception::{OBSERVATION_SIZE_PX, OBSTACLE_MEAN};
-use crate::plant::PositionerKind;
 use crate::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
-use crate::scenario::{
+use crate::session::SPEED_MAX;
+use ferry_core::control::CONTROL_PERIOD_S;
+use ferry_core::control::transport::errt::MOST_EDGES;
+use ferry_core::geometry::{Polygon, Rect};
+use ferry_core::magnetics::force::FARTHEST_M;
+use ferry_core::map::{MAX_SVG_BYTES, Map, WALL_HEIGHT_M};
+use ferry_core::perception::{OBSERVATION_SIZE_PX, OBSTACLE_MEAN};
+use ferry_core::plant::PositionerKind;
+use ferry_core::scenario::{
     ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scenario,
     Scripted, When,
 };
-use crate::session::SPEED_MAX;
-use crate::trial::{EventKind, GOAL_RADIUS_M};
+use ferry_core::trial::{EventKind, GOAL_RADIUS_M};
 
 const HEADER: &str =
     "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n\n";

@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::geometry::Rect;
-use crate::plant::ToolOrientation;
-use crate::robot::workspace;
-use crate::schema::Numbers2;
+use ferry_core::geometry::Rect;
+use ferry_core::plant::ToolOrientation;
+use ferry_core::robot::workspace;
+use ferry_core::schema::Numbers2;
 
 /// Body of `POST /api/kinematics/workspace`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Opening, RecordingError, Sample};
 use crate::files::{read_at_most, replace};
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::ControllerName;
-use crate::trial::{EventKind, Phase};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::{EventKind, Phase};
 
 /// Longest title.
 const MAX_TITLE_CHARS: usize = 80;

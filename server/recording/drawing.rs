@@ -2,7 +2,7 @@
 
 use re_sdk_types::components::Color;
 
-use crate::geometry::Point2;
+use ferry_core::geometry::Point2;
 
 pub(super) const WALL: [u8; 3] = [190, 90, 80];
 pub(super) const TOOL: [u8; 3] = [60, 130, 220];

@@ -19,15 +19,15 @@ use super::drawing::{GOAL, TREE, WALL, color, plan_mm};
 use super::samples::{Samples, recording_time_s};
 use super::stream::Stream;
 use super::{Opening, RecordingError, Sample, trouble};
-use crate::control::switching::Mode;
-use crate::control::transport::Carrier;
-use crate::control::transport::errt::{Errt, Tree};
-use crate::geometry::{Band, Point2, Polygon};
-use crate::map::WALL_HEIGHT_M;
-use crate::perception::ObstacleMap;
-use crate::policy::Judgement;
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::{Arena, Event, EventKind, GOAL_RADIUS_M, Moment, Phase, Sight};
+use ferry_core::control::switching::Mode;
+use ferry_core::control::transport::Carrier;
+use ferry_core::control::transport::errt::{Errt, Tree};
+use ferry_core::geometry::{Band, Point2, Polygon};
+use ferry_core::map::WALL_HEIGHT_M;
+use ferry_core::perception::ObstacleMap;
+use ferry_core::policy::Judgement;
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::trial::{Arena, Event, EventKind, GOAL_RADIUS_M, Moment, Phase, Sight};
 
 const JPEG_QUALITY: u8 = 85;
 

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::about::Notes;
 use super::entities::{TimelinePosition, Writer};
 use super::{Archive, Message, Opening, Options, RecordingError};
-use crate::trial::{Entry, LogWriter};
+use ferry_core::trial::{Entry, LogWriter};
 
 /// A crash loses at most this much of an input log.
 const FLUSH_EVERY: Duration = Duration::from_millis(200);

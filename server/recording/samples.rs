@@ -6,9 +6,9 @@ use re_sdk_types::archetypes::{LineStrips3D, Points2D, Points3D, Scalars};
 use super::drawing::{ARM, BEAD, TOOL, color, plan_mm};
 use super::stream::{Store, Stream, TimeColumn};
 use super::{RecordingError, trouble};
-use crate::plant::BEAD_RADIUS_M;
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::Moment;
+use ferry_core::plant::BEAD_RADIUS_M;
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::trial::Moment;
 
 /// Number of the arm's joints, logged in two groups of three.
 const JOINTS: usize = 6;

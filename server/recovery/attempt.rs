@@ -9,8 +9,8 @@ use utoipa::ToSchema;
 use crate::camera::ImageSource;
 use crate::evaluate::EvaluateError;
 use crate::program::{self, Carrier};
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::{Beginning, Origin, Phase, Sink, Timed, TrialError};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::trial::{Beginning, Origin, Phase, Sink, Timed, TrialError};
 
 /// A trial that neither delivers nor ends is lost after this time.
 const MOST_S: f64 = 900.0;

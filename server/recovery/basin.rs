@@ -10,7 +10,7 @@ use utoipa::ToSchema;
 
 use super::{Findings, Outcome};
 use crate::evaluate::{LEVEL, PairedCounts, corrected_level, wilson};
-use crate::schema::Numbers2;
+use ferry_core::schema::Numbers2;
 
 /// The part of a map from which a controller delivers in time.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
@@ -153,10 +153,10 @@ impl BasinDifference {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point2;
     use crate::recovery::findings::Cell;
     use crate::recovery::{Spot, Tried};
-    use crate::trial::Phase;
+    use ferry_core::geometry::Point2;
+    use ferry_core::trial::Phase;
 
     fn cell(size_m: f64, delivered: [[bool; 2]; 2]) -> Cell {
         let mut cell = Cell::new(Spot::Place { at_m: Point2::origin(), size_m }, 0, 2, 2);

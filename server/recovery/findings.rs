@@ -102,7 +102,7 @@ pub struct Findings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trial::Phase;
+    use ferry_core::trial::Phase;
 
     #[test]
     fn a_cell_counts_what_has_ended() {

@@ -1,9 +1,9 @@
 //! The cells of a map of places, coarse where all neighbours agree.
 
 use super::Spot;
-use crate::geometry::Point2;
-use crate::map::Map;
-use crate::plant::BEAD_RADIUS_M;
+use ferry_core::geometry::Point2;
+use ferry_core::map::Map;
+use ferry_core::plant::BEAD_RADIUS_M;
 
 /// A coarse cell has this many columns and rows of fine ones. Odd, so that both have a common centre.
 const COARSE: usize = 3;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::{Cell, Findings, Recovery, RecoveryError, RecoveryQuery, Start, unrecorded};
 use crate::evaluate::EvaluateError;
 use crate::jobs::{Life, Queue, QueueError, Shelf, Shelved, Stage, Workshop};
-use crate::scenario::ControllerName;
-use crate::trial::{Case, Origin, Timed};
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::{Case, Origin, Timed};
 
 /// A recovery map in the background.
 pub struct RecoveryJob {

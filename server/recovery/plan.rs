@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use super::{Recovery, RecoveryError, RecoveryQuery, Start};
 use crate::camera::{Camera, CameraError, Gpu};
-use crate::map::MapError;
 use crate::open;
 use crate::program::Program;
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, RandomTrialError, SetError, ShippedError};
-use crate::trial::{Case, Origin, Timed, TrialError};
+use ferry_core::map::MapError;
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::{ControllerName, RandomTrialError, SetError, ShippedError};
+use ferry_core::trial::{Case, Origin, Timed, TrialError};
 
 /// Latest moment: one day.
 const AT_MOST_S: f64 = 86_400.0;

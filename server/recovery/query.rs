@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::scenario::ControllerName;
-use crate::trial::Phase;
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::Phase;
 
 const GRID: RangeInclusive<u32> = 4..=96;
 const REPEATS: RangeInclusive<u32> = 1..=100;

@@ -9,9 +9,9 @@ use utoipa::ToSchema;
 use super::findings::Cell;
 use super::{Basin, BasinDifference, Findings, Kind, Spot, Subject};
 use crate::evaluate::ReportError;
-use crate::geometry::Point2;
-use crate::map::Map;
-use crate::schema::Numbers2;
+use ferry_core::geometry::Point2;
+use ferry_core::map::Map;
+use ferry_core::schema::Numbers2;
 
 /// The trials of one controller in one cell.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]

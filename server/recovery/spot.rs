@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Point2, Vector2};
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{Disturbance, MOST_DRIFT_N};
-use crate::trial::{Input, Timed};
+use ferry_core::geometry::{Point2, Vector2};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::{Disturbance, MOST_DRIFT_N};
+use ferry_core::trial::{Input, Timed};
 
 /// Duration of a push.
 const PUSH_S: f64 = 0.5;

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Recovery, RecoveryQuery};
-use crate::geometry::Point2;
-use crate::scenario::ControllerName;
-use crate::trial::{LoggedMap, TrialError};
+use ferry_core::geometry::Point2;
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::{LoggedMap, TrialError};
 
 /// What a recovery map is about, without what its trials need.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

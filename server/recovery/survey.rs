@@ -12,8 +12,8 @@ use crate::camera::Gpu;
 use crate::evaluate::{EvaluateError, Shard, Venue};
 use crate::jobs::Life;
 use crate::program::{Carrier, Program};
-use crate::scenario::ControllerName;
-use crate::trial::{Beginning, Case, Expectation, Input, LoggedMap, Nowhere, Origin, Sink, Timed};
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::{Beginning, Case, Expectation, Input, LoggedMap, Nowhere, Origin, Sink, Timed};
 
 /// The moment of a recovery map.
 #[derive(Clone, Debug)]
@@ -184,7 +184,7 @@ impl Recovery {
         // A bead that was delivered at the moment, and that a disturbance has left there, is not delivered again.
         let tried = cell.tries[controller][repeat].filter(|tried| tried.outcome == Outcome::Delivered);
         let deliveries = tried.map_or(next, |tried| tried.deliveries);
-        let by_tick = state.world.tick + (self.query.within_s / crate::robot::ur5::SERVO_PERIOD_S) as u64;
+        let by_tick = state.world.tick + (self.query.within_s / ferry_core::robot::ur5::SERVO_PERIOD_S) as u64;
         self.start.told.as_ref().map(|_| Case {
             about,
             scenario: scenario.clone(),

@@ -4,10 +4,10 @@ use super::branch_point::is_answer;
 use super::question::{Asking, Circumstances, Sees, Waiting};
 use super::worker::Worker;
 use crate::camera::ImageSource;
-use crate::control::transport::program::Answer;
 use crate::program::{Place, give};
-use crate::scenario::ControllerName;
-use crate::trial::TrialError;
+use ferry_core::control::transport::program::Answer;
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::TrialError;
 
 impl<E: ImageSource> Worker<E> {
     /// Whether the next tick waits for an answer.

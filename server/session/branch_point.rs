@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use crate::camera::{Camera, Gpu, ImageSource};
 use crate::program::{self, Carrier, Program, ProgramError};
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, Parameters};
-use crate::trial::{Arena, Counters, Input, InputError, Moment, Origin, Source, Tally, TickRecord, TrialError};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::{ControllerName, Parameters};
+use ferry_core::trial::{Arena, Counters, Input, InputError, Moment, Origin, Source, Tally, TickRecord, TrialError};
 
 /// Maximum duration of a branch.
 const HORIZON_S: f64 = 60.0;

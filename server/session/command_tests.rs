@@ -7,14 +7,14 @@ use tokio::sync::broadcast;
 use super::worker::Worker;
 use super::{Command, CommandError, Kept};
 use crate::camera::{CameraError, ImageSource, Subject};
-use crate::control::limits::{LIFT_SPEED_M_S, MIN_MANIPULABILITY_M3};
-use crate::geometry::Point2;
-use crate::image::{CameraFrame, Picture};
-use crate::plant::{PositionerKind, TOOL_LENGTH_M, ToolOrientation};
-use crate::robot::ur5::{JOINT_SPEED_LIMIT_RAD_S, SERVO_PERIOD_S};
-use crate::robot::{Joints, jacobian};
-use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
-use crate::trial::{Arena, Case, Catalog, Input, Nowhere, Timed};
+use ferry_core::control::limits::{LIFT_SPEED_M_S, MIN_MANIPULABILITY_M3};
+use ferry_core::geometry::Point2;
+use ferry_core::image::{CameraFrame, Picture};
+use ferry_core::plant::{PositionerKind, TOOL_LENGTH_M, ToolOrientation};
+use ferry_core::robot::ur5::{JOINT_SPEED_LIMIT_RAD_S, SERVO_PERIOD_S};
+use ferry_core::robot::{Joints, jacobian};
+use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
+use ferry_core::trial::{Arena, Case, Catalog, Input, Nowhere, Timed};
 
 const SIDE_PX: u32 = 480;
 /// Tolerance for rounding.

@@ -7,8 +7,8 @@ use super::playing::{Ended, Played, Playing, Void};
 use super::worker::Worker;
 use super::{CommandError, Scenery};
 use crate::camera::ImageSource;
-use crate::challenge::{Attempt, Challenge, ChallengeName, Referee, TICKS_MOST};
-use crate::trial::{Case, TickRecord, Timed};
+use ferry_core::challenge::{Attempt, Challenge, ChallengeName, Referee, TICKS_MOST};
+use ferry_core::trial::{Case, TickRecord, Timed};
 
 impl<E: ImageSource> Worker<E> {
     pub(super) fn play(&mut self, name: ChallengeName) -> Result<(), CommandError> {

@@ -1,10 +1,10 @@
 //! Why a session refuses a command.
 
 use super::{ANSWER_WITHIN, COMMAND_QUEUE};
-use crate::challenge::ChallengeError;
-use crate::map::MapError;
-use crate::trial::{CaseError, InputError, TrialError};
 use crate::ur::twin::DriveError;
+use ferry_core::challenge::ChallengeError;
+use ferry_core::map::MapError;
+use ferry_core::trial::{CaseError, InputError, TrialError};
 
 /// Why a command was refused; the session is unchanged.
 #[derive(Debug, thiserror::Error)]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::JOURNAL;
 use super::worker::Worker;
 use crate::camera::ImageSource;
-use crate::trial::Event;
+use ferry_core::trial::Event;
 
 impl<E: ImageSource> Worker<E> {
     /// Sends events of inputs at once if no tick will carry them.

@@ -6,7 +6,7 @@ use super::CommandError;
 use super::playing::Void;
 use super::worker::Worker;
 use crate::camera::ImageSource;
-use crate::trial::{Input, InputError};
+use ferry_core::trial::{Input, InputError};
 
 impl<E: ImageSource> Worker<E> {
     pub(super) fn input(&mut self, mut input: Input) -> Result<(), CommandError> {

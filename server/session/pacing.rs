@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
 
 /// How often a paused session looks at its recording.
 pub const LOOK_EVERY: Duration = Duration::from_millis(300);

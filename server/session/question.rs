@@ -6,10 +6,10 @@ use std::time::Instant;
 use tokio::sync::oneshot;
 
 use crate::camera::Subject;
-use crate::control::transport::program::Answer;
 use crate::program::{LIVE_WITHIN, Program};
-use crate::scenario::{ControllerName, Parameters};
-use crate::trial::Seen;
+use ferry_core::control::transport::program::Answer;
+use ferry_core::scenario::{ControllerName, Parameters};
+use ferry_core::trial::Seen;
 
 /// A question, and what the camera saw when it was asked.
 pub(super) struct Asking {

@@ -3,8 +3,8 @@
 use super::worker::Worker;
 use super::{BranchPoint, CommandError, Recalled};
 use crate::camera::ImageSource;
-use crate::control::step_is_due;
-use crate::trial::{Case, Input, Origin, Timed, TrialState};
+use ferry_core::control::step_is_due;
+use ferry_core::trial::{Case, Input, Origin, Timed, TrialState};
 
 impl<E: ImageSource> Worker<E> {
     /// The trial as a test case, with all its inputs.

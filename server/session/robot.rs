@@ -7,9 +7,9 @@ use tokio::sync::watch;
 use super::worker::Worker;
 use super::{Command, View};
 use crate::camera::ImageSource;
-use crate::scenario::ControllerName;
-use crate::trial::{Event, EventKind, Input};
 use crate::ur::news::Item;
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::{Event, EventKind, Input};
 
 impl<E: ImageSource> Worker<E> {
     /// Gives the arm to a program that a client has sent to the robot: the session runs, at real speed.

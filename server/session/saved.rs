@@ -11,10 +11,10 @@ use super::timeline::Timeline;
 use super::worker::Worker;
 use crate::camera::ImageSource;
 use crate::faults;
-use crate::map::{Library, Map};
 use crate::open;
-use crate::scenario::Scenario;
-use crate::trial::{
+use ferry_core::map::{Library, Map};
+use ferry_core::scenario::Scenario;
+use ferry_core::trial::{
     Arena, Beginning, Entry, Event, EventKind, LogError, LogWriter, LoggedBeginning, LoggedMap, Trial, TrialError,
     TrialState,
 };

@@ -9,7 +9,7 @@ use tokio::sync::watch;
 use super::View;
 use super::worker::{DRAIN_EVERY, Worker};
 use crate::camera::ImageSource;
-use crate::trial::TrialError;
+use ferry_core::trial::TrialError;
 
 impl<E: ImageSource> Worker<E> {
     /// Runs a slice of a `Step`, and at its end the commands that waited for it.

@@ -8,9 +8,9 @@ use super::timeline::Timeline;
 use super::worker::{End, Worker};
 use super::{CommandError, Kept, Scenery};
 use crate::camera::ImageSource;
-use crate::map::is_added;
-use crate::scenario::Scenario;
-use crate::trial::{
+use ferry_core::map::is_added;
+use ferry_core::scenario::Scenario;
+use ferry_core::trial::{
     Arena, Beginning, Case, Event, EventKind, Input, InputError, Origin, Sight, Timed, Trial, TrialError,
 };
 

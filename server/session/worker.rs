@@ -16,12 +16,12 @@ use super::question::{Asking, Sees};
 use super::timeline::Timeline;
 use super::{COMMAND_QUEUE, Command, CommandError, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, ImageSource};
-use crate::control::step_is_due;
 use crate::faults;
 use crate::program::Program;
-use crate::scenario::{ControllerName, Scenario};
-use crate::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
 use crate::ur::{Robot, Twin};
+use ferry_core::control::step_is_due;
+use ferry_core::scenario::{ControllerName, Scenario};
+use ferry_core::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
 
 /// Watchers get a view every second tick at real time, a few more than a display shows, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_millis(16);
@@ -368,6 +368,7 @@ impl<E: ImageSource> Worker<E> {
             Sees::Now(seen) => Source::Seen(seen),
             Sees::Camera => Source::Camera(&mut self.camera),
         };
+        fault_point!("step");
         let mut record = self.trial.tick(source)?;
         self.sink.record(&record);
         if self.sink.wants_beginning() {

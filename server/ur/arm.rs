@@ -1,10 +1,10 @@
 //! The arm at a moment, as a controller reports it.
 
 use super::model::Model;
-use crate::geometry::{Isometry3, Translation3, Vector3};
-use crate::plant::TOOL_LENGTH_M;
-use crate::robot::{Joints, forward, ur5::SERVO_PERIOD_S};
-use crate::trial::Trial;
+use ferry_core::geometry::{Isometry3, Translation3, Vector3};
+use ferry_core::plant::TOOL_LENGTH_M;
+use ferry_core::robot::{Joints, forward, ur5::SERVO_PERIOD_S};
+use ferry_core::trial::Trial;
 
 /// A pose, speed or force of the tool: three numbers along `base`'s axes, then three about them. A pose's rotation is a
 /// rotation vector.

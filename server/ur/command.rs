@@ -2,7 +2,7 @@
 //! vector), speeds per second.
 
 use super::arm::Spatial;
-use crate::robot::{Joints, ur5::JOINT_SPEED_LIMIT_RAD_S};
+use ferry_core::robot::{Joints, ur5::JOINT_SPEED_LIMIT_RAD_S};
 
 /// Where a move ends.
 #[derive(Clone, Copy, Debug, PartialEq)]

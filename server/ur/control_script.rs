@@ -6,10 +6,10 @@ use super::arm::{pose, tool};
 use super::command::{Command, Target};
 use super::mover::{self, Mover};
 use super::registers::Registers;
-use crate::control::limits::Limits;
-use crate::geometry::Isometry3;
-use crate::plant::TOOL_LENGTH_M;
-use crate::robot::{Joints, forward, ur5::SERVO_PERIOD_S};
+use ferry_core::control::limits::Limits;
+use ferry_core::geometry::Isometry3;
+use ferry_core::plant::TOOL_LENGTH_M;
+use ferry_core::robot::{Joints, forward, ur5::SERVO_PERIOD_S};
 
 /// In the script's first output register.
 const READY: i32 = 1;

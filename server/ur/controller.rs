@@ -15,8 +15,8 @@ use super::news::{Item, News};
 use super::refusals::{Refusals, Refused};
 use super::registers::Registers;
 use super::script::{self, Line, ScriptError};
-use crate::control::limits::Limits;
-use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
+use ferry_core::control::limits::Limits;
+use ferry_core::robot::{Joints, ur5::SERVO_PERIOD_S};
 
 /// Values of `safety_mode`.
 const NORMAL: i32 = 1;

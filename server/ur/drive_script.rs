@@ -16,7 +16,7 @@ use super::control_script::Next;
 use super::model::Model;
 use super::mover::Mover;
 use super::registers::Registers;
-use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
+use ferry_core::robot::{Joints, ur5::SERVO_PERIOD_S};
 
 /// The program, in URScript.
 pub const TEXT: &str = include_str!("drive.script");
@@ -35,7 +35,7 @@ pub const LATE_PERIODS: i32 = 12;
 const FIRST_PERIODS: i32 = 125;
 /// A joint's target that is farther away is a mistake.
 const FAR_RAD: f64 = 0.3;
-/// Largest speed of a joint, and of the tool. The tool's is a little below [`crate::control::limits`]' default.
+/// Largest speed of a joint, and of the tool. The tool's is a little below [`ferry_core::control::limits`]' default.
 const JOINT_MOST_RAD_S: f64 = 1.5;
 const TOOL_MOST_M_S: f64 = 0.24;
 const LOOKAHEAD_S: f64 = 0.03;
@@ -147,7 +147,7 @@ mod tests {
             format!("servoj(here, 0, 0, {SERVO_PERIOD_S}, {LOOKAHEAD_S}, 300)"),
             format!("stopj({DECELERATION_RAD_S2})"),
             format!("write_output_integer_register({REGISTER}, {OVER})"),
-            format!("tcp = p[0, 0, {}, 0, 0, 0]", crate::plant::TOOL_LENGTH_M),
+            format!("tcp = p[0, 0, {}, 0, 0, 0]", ferry_core::plant::TOOL_LENGTH_M),
             format!("write_output_float_register({FLANGE_REGISTER} + i, flange[i])"),
             format!("write_output_float_register({JOINTS_REGISTER} + i, joints[i])"),
         ] {

@@ -2,9 +2,9 @@
 
 use serde::Deserialize;
 
-use crate::geometry::{Isometry3, Translation3};
-use crate::plant::TOOL_LENGTH_M;
-use crate::robot::{
+use ferry_core::geometry::{Isometry3, Translation3};
+use ferry_core::plant::TOOL_LENGTH_M;
+use ferry_core::robot::{
     Joints, forward,
     ur5::{self, DhRow},
 };

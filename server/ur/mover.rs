@@ -2,10 +2,10 @@
 
 use super::arm::{Spatial, tool};
 use super::command::{Command, Target};
-use crate::geometry::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use crate::plant::TOOL_LENGTH_M;
-use crate::robot::inverse::{self, InverseError};
-use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
+use ferry_core::geometry::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use ferry_core::plant::TOOL_LENGTH_M;
+use ferry_core::robot::inverse::{self, InverseError};
+use ferry_core::robot::{Joints, ur5::SERVO_PERIOD_S};
 
 /// A joint or the tool that has less to go has arrived.
 const ARRIVED: f64 = 1e-9;

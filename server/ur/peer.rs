@@ -5,7 +5,7 @@ use bytes::Buf;
 use super::arm::Spatial;
 use super::drive_script::{CHECK_REGISTER, FLANGE_REGISTER, JOINTS_REGISTER, REGISTER};
 use super::rtde::{self, kind};
-use crate::robot::Joints;
+use ferry_core::robot::Joints;
 
 /// What the robot reports, and the types of it. Registers only if Ferry may move the arm.
 const OUTPUTS: [(&str, &str); 20] = [

@@ -7,9 +7,9 @@ use tokio::sync::watch;
 use super::Arm;
 use super::controller::{Controller, LoadError, Standing};
 use super::model::Model;
-use crate::robot::Joints;
-use crate::scenario::ControllerName;
-use crate::trial::{Input, InputError, Trial};
+use ferry_core::robot::Joints;
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::{Input, InputError, Trial};
 
 #[derive(Debug)]
 pub struct Robot {
@@ -84,13 +84,13 @@ impl Robot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::TargetStep;
-    use crate::control::switching::{self, Mode};
-    use crate::geometry::{Point2, Vector3};
-    use crate::plant::{PositionerKind, TOOL_LENGTH_M};
-    use crate::robot::{forward, jacobian, ur5::SERVO_PERIOD_S};
-    use crate::scenario::Scenario;
-    use crate::trial::{Arena, Decision, Motion, Source};
+    use ferry_core::control::TargetStep;
+    use ferry_core::control::switching::{self, Mode};
+    use ferry_core::geometry::{Point2, Vector3};
+    use ferry_core::plant::{PositionerKind, TOOL_LENGTH_M};
+    use ferry_core::robot::{forward, jacobian, ur5::SERVO_PERIOD_S};
+    use ferry_core::scenario::Scenario;
+    use ferry_core::trial::{Arena, Decision, Motion, Source};
 
     /// A tick with the tool on its way to a place.
     fn tick(trial: &mut Trial, x_m: f64) {

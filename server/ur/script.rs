@@ -17,7 +17,7 @@ use winnow::token::take_while;
 
 use super::command::{Command, Target};
 use super::registers::REGISTERS;
-use crate::plant::TOOL_LENGTH_M;
+use ferry_core::plant::TOOL_LENGTH_M;
 use reader::Statements;
 
 /// Longest program.

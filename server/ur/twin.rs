@@ -15,10 +15,10 @@ use tokio::sync::watch;
 use super::drive_script::OVER;
 use super::news::{Item, News};
 use super::peer::Report;
-use crate::plant::PositionerKind;
-use crate::robot::Joints;
-use crate::trial::{Input, Trial};
 use doubt::{Apart, Doubt};
+use ferry_core::plant::PositionerKind;
+use ferry_core::robot::Joints;
+use ferry_core::trial::{Input, Trial};
 use state::{Drive, State, check_modes};
 
 /// A robot that reports nothing for this long no longer follows, nor does one whose program does not go on.

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use criterion::Criterion;
 use ferry::camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
-use ferry::geometry::{Point2, Point3};
-use ferry::image::CameraMount;
-use ferry::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation, WallMotion};
-use ferry::scenario::Parameters;
-use ferry::trial::Arena;
+use ferry_core::geometry::{Point2, Point3};
+use ferry_core::image::CameraMount;
+use ferry_core::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation, WallMotion};
+use ferry_core::scenario::Parameters;
+use ferry_core::trial::Arena;
 
 pub fn benches(c: &mut Criterion) {
     let gpu = Gpu::open(AdapterChoice::Auto).expect("a graphics adapter is needed");

@@ -7,12 +7,12 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use criterion::Criterion;
-use ferry::control::transport::errt::{Planner, PlannerParameters, Progress};
-use ferry::control::transport::planning::Obstacles;
-use ferry::geometry::{Point2, Rect};
-use ferry::image::GrayImage;
-use ferry::map::{FreeSpace, Map};
-use ferry::perception::{Calibration, DarkPixels, OBSTACLE_LEVEL, ObstacleMap};
+use ferry_core::control::transport::errt::{Planner, PlannerParameters, Progress};
+use ferry_core::control::transport::planning::Obstacles;
+use ferry_core::geometry::{Point2, Rect};
+use ferry_core::image::GrayImage;
+use ferry_core::map::{FreeSpace, Map};
+use ferry_core::perception::{Calibration, DarkPixels, OBSTACLE_LEVEL, ObstacleMap};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 
 use criterion::Criterion;
-use ferry::robot::{Joints, forward, inverse, jacobian};
+use ferry_core::robot::{Joints, forward, inverse, jacobian};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -3,10 +3,10 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
-use ferry::geometry::Vector3;
-use ferry::magnetics::cuboid::Cuboid;
-use ferry::magnetics::dipole::{self, BLOCK_REMANENCE_T};
-use ferry::magnetics::force::{self, Orientation};
+use ferry_core::geometry::Vector3;
+use ferry_core::magnetics::cuboid::Cuboid;
+use ferry_core::magnetics::dipole::{self, BLOCK_REMANENCE_T};
+use ferry_core::magnetics::force::{self, Orientation};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

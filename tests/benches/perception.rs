@@ -3,9 +3,9 @@
 use std::hint::black_box;
 
 use criterion::Criterion;
-use ferry::geometry::{Point2, Rect};
-use ferry::image::{CameraFrame, CameraMount, Picture};
-use ferry::perception::{
+use ferry_core::geometry::{Point2, Rect};
+use ferry_core::image::{CameraFrame, CameraMount, Picture};
+use ferry_core::perception::{
     DarkPixels, OBSTACLE_LEVEL, Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters, Unknown, wall_spread,
 };
 

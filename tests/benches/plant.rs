@@ -3,12 +3,12 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
-use ferry::control::switching::{self, Mode};
-use ferry::geometry::{Point2, Point3, Vector2};
-use ferry::map::Map;
-use ferry::plant::{LazyLumen, Plant, PlantState, Positioner, PositionerKind, Surroundings, ToolOrientation};
-use ferry::scenario::{Parameters, Scenario};
-use ferry::trial::{Arena, Decision, Motion, Source, Trial};
+use ferry_core::control::switching::{self, Mode};
+use ferry_core::geometry::{Point2, Point3, Vector2};
+use ferry_core::map::Map;
+use ferry_core::plant::{LazyLumen, Plant, PlantState, Positioner, PositionerKind, Surroundings, ToolOrientation};
+use ferry_core::scenario::{Parameters, Scenario};
+use ferry_core::trial::{Arena, Decision, Motion, Source, Trial};
 
 /// Height of the tool, and of the paper's plane.
 const HEIGHT_M: f64 = 0.1;
@@ -42,7 +42,7 @@ pub fn benches(c: &mut Criterion) {
     let mut group = c.benchmark_group("plant");
 
     // A millisecond of the bead behind a moving magnet, between the colon's walls.
-    group.throughput(Throughput::Elements(ferry::plant::SUBSTEPS as u64));
+    group.throughput(Throughput::Elements(ferry_core::plant::SUBSTEPS as u64));
     let mut state = PlantState::at_rest(Positioner::PlanarStage(path[0]), start);
     let mut at = 0;
     group.bench_function("eight 1 kHz steps, colon, no arm", |b| {

@@ -5,17 +5,17 @@ use std::time::{Duration, Instant};
 
 use criterion::Criterion;
 use ferry::camera::{AdapterChoice, Camera, Gpu, Subject};
-use ferry::control::transport::rl::Rl;
-use ferry::control::transport::{Transport, TransportInput};
-use ferry::geometry::Point2;
-use ferry::image::{CameraFrame, CameraMount};
 use ferry::learn::sweep::{STEP_M, Sweep};
 use ferry::learn::{Recipe, Run, State, Terrain};
-use ferry::map::{FreeSpace, WALL_HEIGHT_M};
-use ferry::perception::{ObstacleMap, Percept, wall_spread};
-use ferry::policy::Policy;
-use ferry::scenario::Parameters;
-use ferry::trial::Arena;
+use ferry_core::control::transport::rl::Rl;
+use ferry_core::control::transport::{Transport, TransportInput};
+use ferry_core::geometry::Point2;
+use ferry_core::image::{CameraFrame, CameraMount};
+use ferry_core::map::{FreeSpace, WALL_HEIGHT_M};
+use ferry_core::perception::{ObstacleMap, Percept, wall_spread};
+use ferry_core::policy::Policy;
+use ferry_core::scenario::Parameters;
+use ferry_core::trial::Arena;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 

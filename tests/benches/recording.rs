@@ -7,8 +7,8 @@ use std::time::Instant;
 use criterion::Criterion;
 use ferry::camera::{AdapterChoice, Camera, Gpu};
 use ferry::recording::{Archive, Options, Recorder, Retention};
-use ferry::scenario::ControllerName;
-use ferry::trial::{Arena, Beginning, Nowhere, Sink, Source, Trial};
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::{Arena, Beginning, Nowhere, Sink, Source, Trial};
 
 const TICKS: u64 = 2500;
 const TURNS: usize = 30;

@@ -1,6 +1,6 @@
 //! Small drawings made of any bytes, and whether Ferry's walls lie where usvg draws.
 
-use ferry::map::Map;
+use ferry_core::map::Map;
 use usvg::tiny_skia_path::{PathSegment, Point};
 
 const NUMBERS: [&str; 12] = ["0", "5", "10", "-10", "33.3", "100", "-200", "7e1", "250", "1.5", "-.5", "400"];

@@ -4,17 +4,17 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use bytes::BytesMut;
-use ferry::geometry::Point2;
-use ferry::map::Map;
 use ferry::open;
-use ferry::plant::PositionerKind;
-use ferry::policy::Policy;
 use ferry::protocol::ClientMessage;
-use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, Shipped, When};
-use ferry::trial::{Arena, Beginning, Entry, Input, LogWriter, LoggedBeginning, LoggedTick, Source, Trial};
 use ferry::ur::controller::Controller;
 use ferry::ur::peer::Peer;
 use ferry::ur::{Arm, rtde};
+use ferry_core::geometry::Point2;
+use ferry_core::map::Map;
+use ferry_core::plant::PositionerKind;
+use ferry_core::policy::Policy;
+use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, Shipped, When};
+use ferry_core::trial::{Arena, Beginning, Entry, Input, LogWriter, LoggedBeginning, LoggedTick, Source, Trial};
 use tokio_util::codec::Encoder;
 
 use super::targets::{Spots, Target, written};
@@ -120,8 +120,8 @@ fn cases() -> Vec<Vec<u8>> {
     kept.chain(shipped).collect()
 }
 
-fn timed(tick: u64, input: Input) -> ferry::trial::Timed {
-    ferry::trial::Timed { tick, input }
+fn timed(tick: u64, input: Input) -> ferry_core::trial::Timed {
+    ferry_core::trial::Timed { tick, input }
 }
 
 fn inputs() -> Vec<Input> {

@@ -6,19 +6,19 @@ use std::sync::{Arc, LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
 use ferry::camera::{CameraError, ImageSource, Subject};
-use ferry::control::limits::Limits;
-use ferry::geometry::{Point3, Rect};
-use ferry::image::{CameraFrame, Picture};
-use ferry::map::{FreeSpace, Map};
-use ferry::plant::{Positioner, PositionerKind, ToolOrientation};
-use ferry::policy::Policy;
 use ferry::protocol::ClientMessage;
-use ferry::robot::Joints;
-use ferry::scenario::{ControllerName, Scenario};
-use ferry::trial::{Arena, Case, Entry, InputLog, LoggedBeginning, Source, Trial, replay};
 use ferry::ur::controller::{Controller, LoadError};
 use ferry::ur::peer::{Peer, PeerError, Report};
 use ferry::ur::{Arm, Twin, dashboard, rtde, script};
+use ferry_core::control::limits::Limits;
+use ferry_core::geometry::{Point3, Rect};
+use ferry_core::image::{CameraFrame, Picture};
+use ferry_core::map::{FreeSpace, Map};
+use ferry_core::plant::{Positioner, PositionerKind, ToolOrientation};
+use ferry_core::policy::Policy;
+use ferry_core::robot::Joints;
+use ferry_core::scenario::{ControllerName, Scenario};
+use ferry_core::trial::{Arena, Case, Entry, InputLog, LoggedBeginning, Source, Trial, replay};
 use tokio_util::codec::{Decoder, Encoder};
 
 use super::drawing;
@@ -201,8 +201,8 @@ fn policy(bytes: &[u8]) -> bool {
     let arena = shipped("open").expect("a shipped map").with_policy(policy);
     let scenario = Scenario {
         controller: ControllerName::Rl,
-        start_m: Some(ferry::geometry::Point2::new(-0.1, -0.35)),
-        goal_m: Some(ferry::geometry::Point2::new(0.1, -0.35)),
+        start_m: Some(ferry_core::geometry::Point2::new(-0.1, -0.35)),
+        goal_m: Some(ferry_core::geometry::Point2::new(0.1, -0.35)),
         ..Scenario::idle("open", 1)
     };
     let mut trial = Trial::new(scenario, arena).unwrap();
@@ -380,7 +380,7 @@ impl ImageSource for Spots {
             let rgba = (0..SIDE_PX * SIDE_PX).flat_map(|i| [gray(i), gray(i), gray(i), 255]).collect();
             Picture { width_px: SIDE_PX, height_px: SIDE_PX, rgba }
         });
-        let pinhole = subject.mount.over(ferry::geometry::Point2::new(subject.tool_m[0], subject.tool_m[1]), 0.0);
+        let pinhole = subject.mount.over(ferry_core::geometry::Point2::new(subject.tool_m[0], subject.tool_m[1]), 0.0);
         Ok(CameraFrame { picture: PICTURE.clone(), tick: subject.tick, pinhole })
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::boards::Kept;
 use crate::camera::ImageSource;
-use crate::challenge::{AttemptError, Challenge};
-use crate::control::Refusal;
-use crate::geometry::{Point2, Vector2};
-use crate::trial::{Decision, Motion, Sight, TickRecord, Trial, TrialError};
+use ferry_core::challenge::{AttemptError, Challenge};
+use ferry_core::control::Refusal;
+use ferry_core::geometry::{Point2, Vector2};
+use ferry_core::trial::{Decision, Motion, Sight, TickRecord, Trial, TrialError};
 
 /// What is there before a step is decided.
 #[derive(Clone, Debug, PartialEq)]

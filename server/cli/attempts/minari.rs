@@ -15,9 +15,9 @@ use arrow_schema::{ArrowError, Field};
 use serde_json::{Value, json};
 
 use super::episode::{Episode, View};
-use crate::control::CONTROL_PERIOD_S;
-use crate::perception::OBSERVATION_SIZE_PX;
-use crate::scenario::Scenario;
+use ferry_core::control::CONTROL_PERIOD_S;
+use ferry_core::perception::OBSERVATION_SIZE_PX;
+use ferry_core::scenario::Scenario;
 
 /// Name of the data set: namespace, name and version.
 pub const DATA_SET: &str = "ferry/attempts-v0";

@@ -10,8 +10,8 @@ use crate::learn::{
     Curve, EXAMINATION_SEED, Marks, MazeLattice, RecipeName, SurveyRecipe, SurveyRun, examine_surveys, examine_teacher,
     revision,
 };
-use crate::map::MazeFamily;
 use crate::open;
+use ferry_core::map::MazeFamily;
 
 /// Instead of the names of maps.
 pub const MAP: &str = "generated";

@@ -4,7 +4,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::evaluate::{FigureError, Row};
-use crate::scenario::{Kind, Parameter};
+use ferry_core::scenario::{Kind, Parameter};
 
 const PANEL_PX: (u32, u32) = (560, 360);
 const FONT: &str = "sans-serif";

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use crate::camera::Gpu;
 use crate::program::ProgramError;
 use crate::protocol::{Branch, ComparisonMessage};
-use crate::scenario::ControllerName;
 use crate::session::BranchPoint;
+use ferry_core::scenario::ControllerName;
 
 /// Interval of progress messages.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);

@@ -9,7 +9,7 @@ use tokio::time::Instant;
 
 use super::hub::Hub;
 use crate::session::Command;
-use crate::trial::Input;
+use ferry_core::trial::Input;
 
 /// Interval of the watchdog.
 const BEAT: Duration = Duration::from_secs(1);

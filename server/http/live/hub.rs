@@ -18,9 +18,9 @@ use crate::protocol::{
     BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
     ServerMessage, StateMessage,
 };
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::ControllerName;
 use crate::session::{CommandError, Recalled, Session, View};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::ControllerName;
 
 /// Camera frames are sent at most thirty times a second.
 const CAMERA_EVERY: Duration = Duration::from_millis(33);
@@ -304,7 +304,7 @@ struct Encoder {
     last: Option<Encoded>,
     /// Versions of the static parts and of the list of maps.
     scene_version: Option<(u64, u64)>,
-    sight: Option<Arc<(u64, crate::trial::Sight)>>,
+    sight: Option<Arc<(u64, ferry_core::trial::Sight)>>,
     owes_sight: bool,
 }
 

@@ -9,22 +9,22 @@ use nalgebra::{Rotation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use crate::control::limits::MIN_MANIPULABILITY_M3;
-use crate::geometry::{Isometry3, Matrix3, Vector3};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::problem::Problem;
 use crate::http::refusals::{OutOfRange, Unavailable};
-use crate::magnetics::curves::{self, CurveError};
-use crate::magnetics::plane;
-use crate::magnetics::{cuboid::Cuboid, force};
-use crate::plant::manipulability_map;
 use crate::protocol::{
     Numbers3, Numbers6, Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery, Rows3, WorkspaceMap,
     WorkspaceQuery,
 };
-use crate::robot::workspace::WorkspaceError;
-use crate::robot::{Joints, forward, inverse};
+use ferry_core::control::limits::MIN_MANIPULABILITY_M3;
+use ferry_core::geometry::{Isometry3, Matrix3, Vector3};
+use ferry_core::magnetics::curves::{self, CurveError};
+use ferry_core::magnetics::plane;
+use ferry_core::magnetics::{cuboid::Cuboid, force};
+use ferry_core::plant::manipulability_map;
+use ferry_core::robot::workspace::WorkspaceError;
+use ferry_core::robot::{Joints, forward, inverse};
 
 /// Maximum number of items per request.
 const BATCH_LIMIT: usize = 10_000;

@@ -12,7 +12,6 @@ use jiff::{Timestamp, Zoned, tz::TimeZone};
 use super::sessions::find;
 use crate::boards::{BoardError, Boards, Signature};
 use crate::camera::{Camera, CameraError, Gpu};
-use crate::challenge::{Attempt, AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{ChallengePath, Path, SessionPath};
@@ -22,9 +21,10 @@ use crate::jobs::gentle_pool;
 use crate::protocol::{
     AttemptAnswer, AttemptQuery, AttemptReport, ChallengeReport, ChallengeSummary, Challenges, Ghosts, Period,
 };
-use crate::scenario::ControllerName;
 use crate::session::Ended;
-use crate::trial::TrialError;
+use ferry_core::challenge::{Attempt, AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
+use ferry_core::scenario::ControllerName;
+use ferry_core::trial::TrialError;
 
 /// Attempts wait for each other, and so do the controllers' runs. An attempt never waits for them.
 const RUN_WAITS: Duration = Duration::from_secs(60);
@@ -99,7 +99,7 @@ fn offered(now: Timestamp) -> Vec<(ChallengeName, Period)> {
 }
 
 fn named(name: &str) -> Result<ChallengeName, Problem> {
-    name.parse().map_err(|error: crate::challenge::NotAChallenge| {
+    name.parse().map_err(|error: ferry_core::challenge::NotAChallenge| {
         Problem::new(StatusCode::NOT_FOUND, "not_found", error.to_string()).field("name")
     })
 }

@@ -7,13 +7,13 @@ use axum::extract::State;
 use axum::http::StatusCode;
 
 use super::sessions::view;
-use crate::control::transport::attractor::Flow;
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange};
 use crate::protocol::{FLOW_SPACING_M, FlowField, FlowQuery};
+use ferry_core::control::transport::attractor::Flow;
 
 /// The flow field of the attractor dynamics.
 #[utoipa::path(post, path = "/api/sessions/{id}/flow", tag = "sessions", params(SessionPath), request_body = FlowQuery,

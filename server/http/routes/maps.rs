@@ -19,10 +19,10 @@ use crate::http::body::{WholeBody, attachment};
 use crate::http::path::{MapPath, Path, Query};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::map::{Library, MAX_SVG_BYTES, Map, MapError, READER, Summary, decoded, first_reader, is_added};
-use crate::plant::BEAD_RADIUS_M;
 use crate::protocol::{MapCheck, MapFacts, MapReport};
-use crate::trial::Arena;
+use ferry_core::map::{Library, MAX_SVG_BYTES, Map, MapError, READER, Summary, decoded, first_reader, is_added};
+use ferry_core::plant::BEAD_RADIUS_M;
+use ferry_core::trial::Arena;
 
 /// A drawing of a map.
 fn example() -> serde_json::Value {
@@ -111,7 +111,7 @@ impl Maps {
     }
 
     fn add(&self, Wish { name: wished, fit }: Wish, svg: String) -> Result<MapReport, Problem> {
-        let svg = if fit { crate::map::fit(&svg)? } else { svg };
+        let svg = if fit { ferry_core::map::fit(&svg)? } else { svg };
         let map = Map::from_svg("", &svg)?;
         let map = {
             let _one_at_a_time = self.changing();
@@ -271,7 +271,7 @@ mod tests {
     }
 
     fn drawing(name: &str) -> String {
-        crate::map::Map::shipped(name).unwrap().svg().to_owned()
+        ferry_core::map::Map::shipped(name).unwrap().svg().to_owned()
     }
 
     fn add(maps: &Maps, name: &str, svg: String) -> String {

@@ -13,10 +13,10 @@ use crate::http::body::attachment;
 use crate::http::path::{MomentPath, Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
-use crate::image::EncodeError;
 use crate::protocol::MomentMessage;
 use crate::session::{BranchPoint, CommandError, Recalled};
-use crate::trial::{Case, Moment, TickRecord, TrialError};
+use ferry_core::image::EncodeError;
+use ferry_core::trial::{Case, Moment, TickRecord, TrialError};
 
 /// Repeats the moment beside the session.
 async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(BranchPoint, Moment, TickRecord), Problem> {

@@ -13,9 +13,9 @@ use crate::http::path::{Path, PolicyPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::learn::LibraryError;
-use crate::policy::PolicyError;
 use crate::protocol::{Policies, PolicyName, PolicySummary};
-use crate::scenario::RlPolicy;
+use ferry_core::policy::PolicyError;
+use ferry_core::scenario::RlPolicy;
 
 /// The shipped policies, then the added ones.
 #[utoipa::path(get, path = "/api/policies", tag = "policies", operation_id = "policies",

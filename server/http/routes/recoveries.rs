@@ -16,9 +16,9 @@ use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable
 use crate::http::sessions::MAIN;
 use crate::protocol::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary, RecoveryTrials};
 use crate::recovery::{RecoveryJob, Report, Start, SubmitRecoveryError};
-use crate::scenario::{Scenario, Shipped};
 use crate::session::Recalled;
-use crate::trial::{Case, Origin, Timed, Trial, TrialError};
+use ferry_core::scenario::{Scenario, Shipped};
+use ferry_core::trial::{Case, Origin, Timed, Trial, TrialError};
 
 /// The recovery maps: running, waiting, and the last ended ones.
 #[utoipa::path(get, path = "/api/recoveries", tag = "recoveries", operation_id = "recoveries",

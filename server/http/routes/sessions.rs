@@ -17,8 +17,8 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::http::sessions::MAIN;
 use crate::protocol::StateMessage;
-use crate::scenario::{ControllerName, Scenario};
 use crate::session::View;
+use ferry_core::scenario::{ControllerName, Scenario};
 
 /// Summary of a session.
 #[derive(Serialize, ToSchema)]

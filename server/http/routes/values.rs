@@ -10,8 +10,6 @@ use axum::http::StatusCode;
 
 use super::sessions::view;
 use crate::camera::Gpu;
-use crate::control::transport::Carrier;
-use crate::geometry::Point2;
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{Path, SessionPath};
@@ -19,10 +17,12 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::jobs::gentle_pool;
 use crate::learn::{Atlas, AtlasError};
-use crate::perception::Area;
-use crate::policy::{Judgement, Lattice, Policy, PolicyError, Survey};
 use crate::protocol::{ValueMap, ValueQuery};
-use crate::trial::{Arena, Sight};
+use ferry_core::control::transport::Carrier;
+use ferry_core::geometry::Point2;
+use ferry_core::perception::Area;
+use ferry_core::policy::{Judgement, Lattice, Policy, PolicyError, Survey};
+use ferry_core::trial::{Arena, Sight};
 
 /// Requests for value maps run one at a time.
 const PAINTER_WAITS: Duration = Duration::from_secs(60);

@@ -1,7 +1,7 @@
 use std::time::Instant;
 
 use super::*;
-use crate::trial::{Entry, Input, InputLog, LogWriter};
+use ferry_core::trial::{Entry, Input, InputLog, LogWriter};
 
 fn sessions(folder: &tempfile::TempDir, settings: SessionSettings) -> Arc<Sessions> {
     let archive = Archive::new(folder.path().join("recordings"), crate::recording::Retention::default());

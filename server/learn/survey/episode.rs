@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::lattice::{MazeLattice, UNREACHABLE};
 use super::recipe::SurveyRecipe;
-use crate::geometry::{Point2, Vector2};
 use crate::learn::environment::Ending;
 use crate::learn::sweep::STEP_M;
-use crate::perception::Area;
-use crate::policy::{Action, Survey};
-use crate::trial::GOAL_RADIUS_M;
+use ferry_core::geometry::{Point2, Vector2};
+use ferry_core::perception::Area;
+use ferry_core::policy::{Action, Survey};
+use ferry_core::trial::GOAL_RADIUS_M;
 
 /// Cells to each side of the tool that an image shows with their clearance; one fewer in some episodes.
 const SEEN: [i64; 2] = [8, 9];

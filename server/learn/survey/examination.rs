@@ -11,7 +11,7 @@ use super::recipe::SurveyRecipe;
 use super::teacher::Advice;
 use crate::learn::environment::Ending;
 use crate::learn::examine::Marks;
-use crate::policy::{ACTING_FRACTIONS, Network, Survey};
+use ferry_core::policy::{ACTING_FRACTIONS, Network, Survey};
 
 /// Random stream of examinations; training uses other streams of its seed.
 const STREAM: u64 = 1 << 40;

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::geometry::Point2;
 use crate::learn::sweep::STEP_M;
-use crate::map::{Map, Maze, MazeError, MazeFamily};
-use crate::policy::{Lattice, neighbours};
+use ferry_core::geometry::Point2;
+use ferry_core::map::{Map, Maze, MazeError, MazeFamily};
+use ferry_core::policy::{Lattice, neighbours};
 
 /// Distance without a path.
 pub const UNREACHABLE: u16 = u16::MAX;

@@ -10,7 +10,7 @@ use super::replay::{Step, SurveyReplay};
 use super::teacher::Advice;
 use crate::learn::loss::quantile_huber;
 use crate::learn::networks::{Descent, Memory, Networks};
-use crate::policy::{Action, Network, Survey, acting_fractions};
+use ferry_core::policy::{Action, Network, Survey, acting_fractions};
 
 /// Farthest that the teacher's reward for an action goes below the reward of a step that gains nothing, in steps.
 const LOST_MOST: f32 = 5.0;

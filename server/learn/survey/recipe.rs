@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::learn::recipe::RecipeError;
-use crate::policy::{Architecture, Fusion};
+use ferry_core::policy::{Architecture, Fusion};
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-use crate::policy::Survey;
+use ferry_core::policy::Survey;
 
 /// One step, or the survey that an episode which ran out of steps ended with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -20,7 +20,7 @@ use crate::learn::networks::{Memory, Weights, network};
 use crate::learn::point::{Point, WINDOW};
 use crate::learn::run::Run;
 use crate::learn::sweep::STEP_M;
-use crate::policy::{Action, Manifest, Network, Policy};
+use ferry_core::policy::{Action, Manifest, Network, Policy};
 
 /// Updates between two small examinations, on mazes of the trained families.
 const EXAMINED_EVERY: u64 = 1000;

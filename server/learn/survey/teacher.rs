@@ -2,8 +2,8 @@
 //! knew the whole maze would ask for what the policy cannot know (the imitation gap, Weihs et al. 2021).
 
 use super::lattice::{UNREACHABLE, steps_to};
-use crate::perception::Area;
-use crate::policy::{Action, Survey};
+use ferry_core::perception::Area;
+use ferry_core::policy::{Action, Survey};
 
 /// Steps to the goal by the teacher, from the tool's cell and after each action; `None` into a wall or without a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,9 +7,9 @@ use super::teacher::Advice;
 use super::*;
 use crate::learn::environment::Ending;
 use crate::learn::run::Run;
-use crate::map::MazeFamily;
-use crate::perception::Area;
-use crate::policy::{Action, Survey};
+use ferry_core::map::MazeFamily;
+use ferry_core::perception::Area;
+use ferry_core::policy::{Action, Survey};
 
 fn small() -> SurveyRecipe {
     SurveyRecipe {
@@ -142,7 +142,7 @@ fn a_recipe_out_of_range_is_refused_by_name() {
     SurveyRecipe::default().check().unwrap();
     let error = SurveyRecipe { discount: f64::NAN, ..small() }.check().unwrap_err();
     assert_eq!(error.to_string(), "discount is NaN, it must be 0 to 1");
-    let architecture = crate::policy::Architecture::default();
+    let architecture = ferry_core::policy::Architecture::default();
     let error = SurveyRecipe { architecture, ..small() }.check().unwrap_err();
     assert_eq!(error.field, "architecture");
 }

@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 use crate::learn::examine::examine_by;
 use crate::learn::terrain::tests::two_rooms;
-use crate::policy::Architecture;
+use ferry_core::policy::Architecture;
 
 /// A recipe whose runs take about a second.
 fn shrunk(recipe: Recipe) -> Recipe {

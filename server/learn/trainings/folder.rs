@@ -15,7 +15,7 @@ use crate::files::replace;
 use crate::learn::checkpoint::CheckpointError;
 use crate::learn::examine::Marks;
 use crate::learn::point::Point;
-use crate::policy::PolicyError;
+use ferry_core::policy::PolicyError;
 
 const RECORD: &str = "training.json";
 const MAP: &str = "map.svg";
@@ -34,8 +34,8 @@ pub struct Record {
     pub points: Vec<Point>,
     pub examined: Option<Marks>,
     pub policy: Option<String>,
-    /// Version of the reader of its map ([`crate::map::READER`]).
-    #[serde(default = "crate::map::first_reader")]
+    /// Version of the reader of its map ([`ferry_core::map::READER`]).
+    #[serde(default = "ferry_core::map::first_reader")]
     pub reader: u32,
 }
 

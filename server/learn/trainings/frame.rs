@@ -7,14 +7,14 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::ranks::rank_correlation;
-use crate::geometry::Point2;
 use crate::learn::environment::{Ending, Episode, Goal};
 use crate::learn::learner::{best, features_of, features_of_all};
 use crate::learn::networks::network;
 use crate::learn::recipe::EPISODE_STEPS;
 use crate::learn::terrain::{Terrain, UNREACHABLE, views};
 use crate::learn::training::State;
-use crate::policy::{ACTING_FRACTIONS, BATCH, Fusion, Network, acting_fractions};
+use ferry_core::geometry::Point2;
+use ferry_core::policy::{ACTING_FRACTIONS, BATCH, Fusion, Network, acting_fractions};
 
 /// Fractions of the shown quantiles.
 const SHOWN_FRACTIONS: [f32; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];

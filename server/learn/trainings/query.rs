@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Point2;
 use crate::learn::LibraryError;
 use crate::learn::error::TrainingError;
 use crate::learn::recipe::{Recipe, RecipeError, RecipeName};
 use crate::learn::terrain::TerrainError;
-use crate::map::{Map, MapError};
-use crate::policy::{Architecture, Fusion, Manifest, PolicyError};
+use ferry_core::geometry::Point2;
+use ferry_core::map::{Map, MapError};
+use ferry_core::policy::{Architecture, Fusion, Manifest, PolicyError};
 
 /// Largest number of updates; at the usual speed, a quarter of an hour.
 const MOST_UPDATES: u64 = 20_000;
@@ -161,7 +161,7 @@ impl TrainingQuery {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::policy::Policy;
+    use ferry_core::policy::Policy;
 
     fn query() -> TrainingQuery {
         TrainingQuery {

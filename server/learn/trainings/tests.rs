@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 use super::*;
 use crate::camera::{AdapterChoice, Gpu};
 use crate::learn::recipe::RecipeName;
-use crate::policy;
-use crate::scenario::RlPolicy;
+use ferry_core::policy;
+use ferry_core::scenario::RlPolicy;
 
 /// What a server has.
 struct Laboratory {
@@ -160,7 +160,7 @@ fn a_training_that_cannot_be_saved_fails_and_goes_on_later() {
 fn refuses_what_cannot_be_trained_and_names_the_field() {
     let folder = tempfile::tempdir().unwrap();
     let laboratory = Laboratory::in_folder(folder.path());
-    let far = Some(crate::geometry::Point2::new(5.0, 5.0));
+    let far = Some(ferry_core::geometry::Point2::new(5.0, 5.0));
     for (query, field) in [
         (TrainingQuery { map: "nowhere".into(), ..query("mine") }, "map"),
         (TrainingQuery { map: "attractor-example".into(), ..query("mine") }, "map"),

@@ -23,9 +23,9 @@ use crate::learn::run::{Run, Saving, drive};
 use crate::learn::sweep::{STEP_M, Sweep, SweepError};
 use crate::learn::terrain::Terrain;
 use crate::learn::training::State;
-use crate::map::{Map, READER};
-use crate::policy::Policy;
-use crate::trial::Arena;
+use ferry_core::map::{Map, READER};
+use ferry_core::policy::Policy;
+use ferry_core::trial::Arena;
 
 /// Interval at which a run is saved.
 const SAVED_EVERY: Duration = Duration::from_secs(15);

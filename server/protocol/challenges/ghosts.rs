@@ -6,10 +6,10 @@ use utoipa::ToSchema;
 
 use super::{AttemptScore, pair};
 use crate::boards::Entry;
-use crate::challenge::{Ghost, Mishap, SAMPLE_TICKS, Trace};
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::ControllerName;
-use crate::schema::Numbers2;
+use ferry_core::challenge::{Ghost, Mishap, SAMPLE_TICKS, Trace};
+use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use ferry_core::scenario::ControllerName;
+use ferry_core::schema::Numbers2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]

@@ -5,8 +5,8 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use crate::learn;
-use crate::policy::Fusion;
-use crate::schema::Numbers2;
+use ferry_core::policy::Fusion;
+use ferry_core::schema::Numbers2;
 
 /// Recipe from which the settings start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]

@@ -4,10 +4,10 @@ use serde_json::{Value, json};
 
 use super::{constant, keep};
 use crate::camera::robot::{Material, RobotSolid, solids};
-use crate::magnetics::dipole::BLOCK_REMANENCE_T;
-use crate::magnetics::force;
-use crate::plant::{BlockOrientation, TOOL_LENGTH_M};
-use crate::robot::ur5::DH;
+use ferry_core::magnetics::dipole::BLOCK_REMANENCE_T;
+use ferry_core::magnetics::force;
+use ferry_core::plant::{BlockOrientation, TOOL_LENGTH_M};
+use ferry_core::robot::ur5::DH;
 
 /// To 12 digits, and without a point where it is whole.
 fn number(value: f64) -> Value {
@@ -39,7 +39,7 @@ fn solid(solid: &RobotSolid) -> String {
 }
 
 fn dh() -> String {
-    let row = |row: &crate::robot::ur5::DhRow| {
+    let row = |row: &ferry_core::robot::ur5::DhRow| {
         let (half_sin, half_cos) = row.half_twist;
         let quarter_turns = (2.0 * half_sin.atan2(half_cos) / std::f64::consts::FRAC_PI_2).round();
         format!("  {},\n", list([row.d_m, row.a_m, quarter_turns]))
@@ -59,7 +59,7 @@ fn the_pages_arm_is_generated_from_the_servers() {
     let blocks: String = [BlockOrientation::A, BlockOrientation::B, BlockOrientation::C].map(block).concat();
     let solids: String = solids().iter().map(solid).collect();
     let text = [
-        "// Generated from server/robot/ur5.rs, server/camera/robot.rs and server/magnetics/force.rs;\n\
+        "// Generated from server/core/robot/ur5.rs, server/camera/robot.rs and server/core/magnetics/force.rs;\n\
          // `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n\n"
             .to_owned(),
         format!(

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 use ts_rs::Config;
 
 use super::{declaration, keep};
-use crate::plant::{BlockOrientation, ToolOrientation};
-use crate::scenario::{Bound, Group, Kind, Parameter, Parameters, Preset, RlPolicy};
+use ferry_core::plant::{BlockOrientation, ToolOrientation};
+use ferry_core::scenario::{Bound, Group, Kind, Parameter, Parameters, Preset, RlPolicy};
 
 fn members(group: Group) -> impl Iterator<Item = &'static Parameter> {
     Parameters::ALL.iter().filter(move |parameter| parameter.group == group)
@@ -74,7 +74,7 @@ fn the_pages_form_is_generated_from_the_table() {
     let groups: String = Group::ALL.into_iter().map(group).collect();
     let presets: String = Preset::ALL.iter().map(preset).collect();
     let text = format!(
-        "// Generated from server/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews \
+        "// Generated from server/core/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews \
          it.\n\n{}\n/** The form's fields. Ranges and steps are in the shown unit: shown value = stored value × scale. \
          */\nexport const GROUPS = [\n{groups}] as const;\n\n\
          /** Named sets of parameters. */\nexport const PRESETS: readonly {{ readonly kind: string; readonly label: string; readonly help: string; \
@@ -109,7 +109,7 @@ fn row(parameter: &Parameter, defaults: &Value) -> String {
 fn the_table_of_the_documentation_is_generated() {
     let defaults = serde_json::to_value(Parameters::default()).unwrap();
     let mut text = "# Parameters\n\n\
-        <!-- Generated from server/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` \
+        <!-- Generated from server/core/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` \
         renews it. -->\n\n\
         The same names are used in messages, in experiment links and in `ferry evaluate --set NAME=VALUE`. Ranges and \
         defaults are in the unit of the name; the page may show another one.\n"

@@ -4,9 +4,9 @@ use maud::{Markup, PreEscaped, html};
 
 use super::{CellRow, Report};
 use crate::evaluate::html_document;
-use crate::geometry::Point2;
-use crate::map::Map;
 use crate::recovery::Kind;
+use ferry_core::geometry::Point2;
+use ferry_core::map::Map;
 
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8886; }

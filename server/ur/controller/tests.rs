@@ -1,6 +1,6 @@
 use super::*;
-use crate::geometry::{Point3, Rect};
-use crate::plant::{Positioner, PositionerKind, ToolOrientation};
+use ferry_core::geometry::{Point3, Rect};
+use ferry_core::plant::{Positioner, PositionerKind, ToolOrientation};
 
 const CONTROL_SCRIPT: &str = "def rtde_control():\n  global reg_offset_int = # int register offset\n0\n  textmsg(\"RTDE Control Script\")\nend\n";
 

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use crate::geometry::{Isometry3, UnitQuaternion, Vector3};
-use crate::robot::forward;
 use crate::ur::arm::{Spatial, pose, tool};
 use crate::ur::peer::Report;
+use ferry_core::geometry::{Isometry3, UnitQuaternion, Vector3};
+use ferry_core::robot::forward;
 
 /// Flanges that are farther apart belong to different arms.
 const OTHER_ARM_M: f64 = 0.02;
@@ -93,7 +93,7 @@ impl Doubt {
 
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let length_m = crate::plant::TOOL_LENGTH_M;
+        let length_m = ferry_core::plant::TOOL_LENGTH_M;
         match self {
             Self::Tool(apart) => write!(
                 f,

@@ -1,10 +1,10 @@
 use super::*;
-use crate::geometry::{Point2, Point3};
-use crate::image::EmptyFloor;
-use crate::plant::{Positioner, ToolOrientation};
-use crate::scenario::{ControllerName, Scenario};
-use crate::trial::{Arena, Source};
 use crate::ur::{arm::pose, model::Model};
+use ferry_core::geometry::{Point2, Point3};
+use ferry_core::image::EmptyFloor;
+use ferry_core::plant::{Positioner, ToolOrientation};
+use ferry_core::scenario::{ControllerName, Scenario};
+use ferry_core::trial::{Arena, Source};
 use proptest::prelude::*;
 
 const TICK: Duration = Duration::from_millis(8);
@@ -30,7 +30,7 @@ impl Bench {
         let report = Report { joints_rad, robot_mode: RUNNING, safety_mode: NORMAL, ..Report::default() };
         let twin = Twin::new([127, 0, 0, 1].into(), allows_motion);
         twin.connected(Ok(()));
-        let camera = EmptyFloor::new();
+        let camera = EmptyFloor::default();
         Self { trial, camera, twin, arm: Model::default(), report, now: Instant::now(), press: 1 }
     }
 

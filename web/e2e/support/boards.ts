@@ -1,4 +1,4 @@
-// Boards on the disk, as `Kept` of server/challenge/boards.rs writes them.
+// Boards on the disk, as `Kept` of server/boards.rs writes them.
 
 import { mkdir, mkdtemp, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';

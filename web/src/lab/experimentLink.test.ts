@@ -112,7 +112,7 @@ describe('a link', () => {
   });
 
   it('reads the link that the server writes with a failure', () => {
-    // `server/scenario/link.rs` has the same line.
+    // `server/core/scenario/link.rs` has the same line.
     const text =
       '#v=1&map=colon&controller=errt&seed=9007199254740991&start=-0.1234567890123,-0.3' +
       '&goal=0.1,0.0000001&attractor_law=literal&threshold_m=0.08&disturbances=3';

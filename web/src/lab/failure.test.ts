@@ -51,7 +51,7 @@ describe('the cause of a failure', () => {
   });
 });
 
-/** Every trouble of `server/control/transport.rs`, and none. */
+/** Every trouble of `server/core/control/transport.rs`, and none. */
 const TROUBLES: readonly [string | null, string][] = [
   ['stuck where the flow ends before the goal', 'is stuck where the flow ends before the goal.'],
   ['going to and fro without getting nearer', 'is going to and fro without getting nearer.'],

@@ -1,4 +1,4 @@
-// Generated from server/robot/ur5.rs, server/camera/robot.rs and server/magnetics/force.rs;
+// Generated from server/core/robot/ur5.rs, server/camera/robot.rs and server/core/magnetics/force.rs;
 // `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 /**

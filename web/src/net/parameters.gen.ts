@@ -1,4 +1,4 @@
-// Generated from server/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
+// Generated from server/core/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 export type Orientation = "A" | "B" | "C";
 

@@ -1,4 +1,4 @@
-// Where the links of the UR5 are, from its joint angles; as server/robot/forward.rs.
+// Where the links of the UR5 are, from its joint angles; as server/core/robot/forward.rs.
 
 import { Matrix4 } from 'three';
 import { DH } from '../net/arm.gen';

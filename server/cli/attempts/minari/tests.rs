@@ -5,9 +5,9 @@ use arrow_ipc::reader::FileReader;
 use super::super::episode::Step;
 use super::*;
 use crate::boards::{Kept, Signature};
-use crate::challenge::{Attempt, Challenge, Score, Trace};
-use crate::geometry::{Point2, Vector2};
-use crate::trial::Case;
+use ferry_core::challenge::{Attempt, Challenge, Score, Trace};
+use ferry_core::geometry::{Point2, Vector2};
+use ferry_core::trial::Case;
 
 const PIXELS: usize = 2 * 84 * 84;
 
@@ -112,7 +112,7 @@ fn an_existing_folder_is_left_alone() {
 
 #[test]
 fn places_and_distances_on_the_maps_of_challenges_are_within_the_spaces() {
-    for difficulty in crate::challenge::Difficulty::ALL {
+    for difficulty in ferry_core::challenge::Difficulty::ALL {
         let challenge = Challenge::of(format!("{}-a", difficulty.as_str()).parse().unwrap()).unwrap();
         let workspace = challenge.arena.map.workspace();
         let size_m = workspace.size_m();

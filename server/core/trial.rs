@@ -44,7 +44,7 @@ pub use arena::Arena;
 pub use case::{Case, CaseError, CaseOutcome, Expectation, Timed};
 pub use catalog::Catalog;
 pub use decide::Question;
-pub(crate) use disturb::far_point;
+pub use disturb::far_point;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use event::{Event, EventKind};
 pub use input::Input;
@@ -225,7 +225,7 @@ impl Trial {
     }
 
     /// The image that the controllers get now, with the camera's latency and noise.
-    pub(crate) fn capture(&self, camera: &mut dyn ImageSource) -> Result<CameraFrame, CameraError> {
+    pub fn capture(&self, camera: &mut dyn ImageSource) -> Result<CameraFrame, CameraError> {
         let world = &self.state.world;
         let subject = match world.past.front() {
             Some(&past) => self.subject_at(past, world.past.len() as u64),
@@ -248,7 +248,6 @@ impl Trial {
 
     /// Advances one servo period of 8 ms. If the camera fails, the state is unchanged.
     pub fn tick(&mut self, source: Source<'_>) -> Result<TickRecord, TrialError> {
-        fault_point!("step");
         let tick = self.state.world.tick;
         if !self.inputs.iter().any(|input| matches!(input, Input::Mirror { .. })) {
             self.state.world.plant.mirror = None;
@@ -276,10 +275,6 @@ impl Trial {
         let PlantState { positioner, bead, walls, .. } = self.state.world.plant;
         let before = Past { positioner, bead, walls };
         self.advance_reference();
-        #[cfg(test)]
-        if crate::faults::strikes("not a number") {
-            self.state.world.plant.bead.position_m.x = f64::NAN;
-        }
         self.check_finite(tick)?;
         self.remember(before);
         self.sense();
@@ -369,5 +364,22 @@ impl Trial {
             dropout: parameters.tracker_dropout,
         };
         tracker.sample((!is_hidden).then_some(bead_m), &quality);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::EmptyFloor;
+
+    #[test]
+    fn a_position_that_is_not_a_number_ends_the_trial() {
+        let arena = Arc::new(Arena::shipped("posts").unwrap());
+        let mut trial = Trial::new(Scenario::idle("posts", 1), arena).unwrap();
+        let mut camera = EmptyFloor::default();
+        trial.tick(Source::Camera(&mut camera)).unwrap();
+        trial.state.world.plant.bead.position_m.x = f64::NAN;
+        let refused = trial.tick(Source::Camera(&mut camera)).unwrap_err();
+        assert_eq!(refused.to_string(), "tick 1: the bead's position is no longer a finite number");
     }
 }

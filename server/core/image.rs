@@ -12,9 +12,7 @@ use serde::{Deserialize, Serialize};
 pub use comparison::PictureDifference;
 pub use error::CameraError;
 pub use pinhole::{CameraMount, Pinhole};
-#[cfg(test)]
-pub(crate) use source::tests::EmptyFloor;
-pub use source::{ImageSource, StaticScene, Subject, VIEW_PX, check_mount};
+pub use source::{EmptyFloor, ImageSource, StaticScene, Subject, VIEW_PX, check_mount};
 
 /// An image of RGBA8 pixels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -8,18 +8,17 @@ mod shipped;
 mod streams;
 
 use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 use crate::geometry::Point2;
 use crate::plant::PositionerKind;
+#[cfg(feature = "schema")]
 use crate::schema::Numbers2;
 
 pub use disturbance::{
     Disturbance, DisturbanceError, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scripted,
     When,
 };
-pub(crate) use parameters::Hashed;
+pub use parameters::Hashed;
 pub use parameters::{
     AddedPolicy, AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, Preset, PresetKind,
     RlPolicy, SetError, SwitchingLaw, Unit,
@@ -29,7 +28,8 @@ pub use shipped::{Shipped, ShippedError};
 pub use streams::Stream;
 
 /// Sub-controller 2, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ControllerName {
     /// A trained Rainbow-IQN policy (paper, §IV-A).
@@ -103,7 +103,8 @@ pub struct UnknownController {
 }
 
 /// A trial before its first tick.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// Name of the map, or path of an SVG.
@@ -114,20 +115,20 @@ pub struct Scenario {
     #[serde(default)]
     pub positioner: Option<PositionerKind>,
     /// Seed of everything random in the trial.
-    #[ts(type = "number")]
+    #[cfg_attr(feature = "schema", ts(type = "number"))]
     pub seed: u64,
     /// Parameters at the start.
     #[serde(default)]
     pub parameters: Parameters,
     /// Bead at the start, with the tool above it; if omitted, a random free point.
     #[serde(default)]
-    #[ts(type = "[number, number] | null")]
-    #[schema(value_type = Option<Numbers2>)]
+    #[cfg_attr(feature = "schema", ts(type = "[number, number] | null"))]
+    #[cfg_attr(feature = "schema", schema(value_type = Option<Numbers2>))]
     pub start_m: Option<Point2<f64>>,
     /// Goal at the start; if omitted, the arm holds.
     #[serde(default)]
-    #[ts(type = "[number, number] | null")]
-    #[schema(value_type = Option<Numbers2>)]
+    #[cfg_attr(feature = "schema", ts(type = "[number, number] | null"))]
+    #[cfg_attr(feature = "schema", schema(value_type = Option<Numbers2>))]
     pub goal_m: Option<Point2<f64>>,
     /// Number of random displacements of the bead during transport.
     #[serde(default)]

@@ -8,8 +8,8 @@ use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::{AdditionalProperties, ObjectBuilder, Schema, Type};
 use utoipa::{PartialSchema, ToSchema};
 
+use super::{Kind, Parameter, Parameters};
 use crate::plant::{BlockOrientation, ToolOrientation};
-use crate::scenario::{Kind, Parameter, Parameters};
 
 /// A parameter's name, label and help, and how another one limits it.
 fn description(parameter: &Parameter) -> String {

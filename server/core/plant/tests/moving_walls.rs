@@ -324,7 +324,8 @@ struct ReferenceCase {
 /// Between two long faces, one of which moves, the bead goes where MuJoCo's ball goes.
 #[test]
 fn a_moving_wall_throws_the_bead_as_in_mujoco() {
-    let reference: Reference = serde_json::from_str(include_str!("../../../tests/reference/moving_wall.json")).unwrap();
+    let reference: Reference =
+        serde_json::from_str(include_str!("../../../../tests/reference/moving_wall.json")).unwrap();
     let (mut most_m, mut most_m_s): (f64, f64) = (0.0, 0.0);
     for case in &reference.cases {
         let [place_m, speed_m_s] = against(case, &reference.times_s);

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::Scenario;
 
 #[derive(rust_embed::RustEmbed)]
-#[folder = "../assets/scenarios/"]
+#[folder = "../../assets/scenarios/"]
 #[include = "*.json"]
 struct Files;
 

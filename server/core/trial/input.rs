@@ -1,7 +1,6 @@
 //! Inputs of the operator, checked before they change anything.
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 use super::input_error::{InputError, REASON_BYTES_MOST, WAITING_MOST};
 use super::{Event, EventKind, Motion, Phase, Trial, TrialState};
@@ -19,7 +18,8 @@ use crate::scenario::{ControllerName, Disturbance, Parameters, Stream};
 const MEASURED_BEYOND_RAD: f64 = 0.1;
 
 /// An input of a trial; it is logged with the tick that follows it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
     /// Places the goal.
@@ -66,12 +66,12 @@ pub enum Input {
     },
     /// Joint angles at the next tick, from a program for a UR5.
     Servo {
-        #[schema(value_type = [f64; 6])]
+        #[cfg_attr(feature = "schema", schema(value_type = [f64; 6]))]
         joints_rad: Joints,
     },
     /// At the next tick the arm is where a robot outside of Ferry is. A tick without this moves the simulated arm.
     Mirror {
-        #[schema(value_type = [f64; 6])]
+        #[cfg_attr(feature = "schema", schema(value_type = [f64; 6]))]
         joints_rad: Joints,
         /// Whether the robot follows Ferry's controllers. If not, something else moves it.
         is_driven: bool,
@@ -344,7 +344,7 @@ mod tests {
             assert_eq!(held.apply(last), Err(InputError::TooManyWait), "it holds nothing any more");
         }
         trial.apply(Input::Release).unwrap();
-        let mut camera = EmptyFloor::new();
+        let mut camera = EmptyFloor::default();
         assert_eq!(trial.tick(Source::Camera(&mut camera)).unwrap().inputs.len(), WAITING_MOST + 1);
         trial.apply(goal).unwrap();
     }
@@ -362,7 +362,7 @@ mod tests {
         assert_eq!(other.state().world_hash(), before);
 
         let mut trial = begin(ControllerName::You);
-        let mut camera = EmptyFloor::new();
+        let mut camera = EmptyFloor::default();
         let mut run = |trial: &mut Trial, ticks: u32| {
             (0..ticks).for_each(|_| drop(trial.tick(Source::Camera(&mut camera)).unwrap()));
             trial.tool_m().x

@@ -5,8 +5,6 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 use super::TOOL_LENGTH_M;
 use crate::geometry::{Isometry3, Point3, Rect, Translation3, UnitQuaternion, Vector3};
@@ -28,7 +26,8 @@ const PAPER_ROTATION_RAD: [f64; 3] = [2.182, -2.182, 0.0];
 const LEAST_TURN_RAD: f64 = 0.01;
 
 /// The kind of positioner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PositionerKind {
     /// The UR5.

@@ -10,7 +10,7 @@ const BEAT: u64 = 20;
 const AHEAD_M: f64 = 0.02;
 
 fn challenge(name: &str) -> (Challenge, EmptyFloor) {
-    (Challenge::of(name.parse().unwrap()).unwrap(), EmptyFloor::new())
+    (Challenge::of(name.parse().unwrap()).unwrap(), EmptyFloor::default())
 }
 
 /// The place on the shortest path to the goal that is a little ahead of the tool.

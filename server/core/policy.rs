@@ -132,7 +132,6 @@ impl Policy {
     /// # Errors
     /// [`PolicyError::Network`], only if [`Policy`] has accepted an invalid network.
     pub fn judge(&self, observation: &Observation) -> Result<Judgement, PolicyError> {
-        fault_point!("inference");
         let features = self.features(&[&observation.bytes])?;
         Ok(self.judge_from(&features, &[observation.places()])?.remove(0))
     }
@@ -155,7 +154,6 @@ impl Policy {
     /// # Errors
     /// [`PolicyError::Network`], for a policy that sees an image.
     pub fn plan<'a>(&'a self, survey: &'a Survey) -> Result<Planned<'a>, PolicyError> {
-        fault_point!("inference");
         Ok(Planned { policy: self, plan: self.network.plan(survey)? })
     }
 

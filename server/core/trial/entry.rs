@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
-use utoipa::ToSchema;
 
 use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
 use crate::map::{Map, MapError, READER, first_reader};
@@ -48,7 +47,8 @@ impl LoggedBeginning {
 }
 
 /// A map with its drawing, because shipped maps may change.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct LoggedMap {
     /// Name, for people.
     pub name: String,

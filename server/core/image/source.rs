@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{CameraError, CameraFrame, CameraMount};
+use super::{CameraError, CameraFrame, CameraMount, Picture};
 use crate::geometry::{Band, Isometry3, Point2, Polygon, Rect};
 
 /// Columns and rows of the controllers' view (specification §3).
@@ -108,28 +108,22 @@ pub trait ImageSource {
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError>;
 }
 
-#[cfg(test)]
-pub(crate) mod tests {
-    use super::*;
-    use crate::image::Picture;
+/// Sees an empty floor everywhere, without a graphics device.
+#[derive(Clone, Debug)]
+pub struct EmptyFloor(Picture);
 
-    /// Sees an empty floor, without a graphics device.
-    #[derive(Clone, Debug)]
-    pub(crate) struct EmptyFloor(Picture);
-
-    impl EmptyFloor {
-        pub(crate) fn new() -> Self {
-            let rgba = vec![230; 4 * (VIEW_PX * VIEW_PX) as usize];
-            Self(Picture { width_px: VIEW_PX, height_px: VIEW_PX, rgba })
-        }
+impl Default for EmptyFloor {
+    fn default() -> Self {
+        let rgba = vec![230; 4 * (VIEW_PX * VIEW_PX) as usize];
+        Self(Picture { width_px: VIEW_PX, height_px: VIEW_PX, rgba })
     }
+}
 
-    impl ImageSource for EmptyFloor {
-        fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
-            subject.check()?;
-            let [x_m, y_m, _] = subject.tool_m;
-            let pinhole = subject.mount.over(Point2::new(x_m, y_m), subject.turn_rad);
-            Ok(CameraFrame { picture: self.0.clone(), tick: subject.tick, pinhole })
-        }
+impl ImageSource for EmptyFloor {
+    fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
+        subject.check()?;
+        let [x_m, y_m, _] = subject.tool_m;
+        let pinhole = subject.mount.over(Point2::new(x_m, y_m), subject.turn_rad);
+        Ok(CameraFrame { picture: self.0.clone(), tick: subject.tick, pinhole })
     }
 }

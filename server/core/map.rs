@@ -44,7 +44,7 @@ pub const fn first_reader() -> u32 {
 }
 
 #[derive(rust_embed::RustEmbed)]
-#[folder = "../assets/maps/"]
+#[folder = "../../assets/maps/"]
 #[include = "*.svg"]
 struct Shipped;
 

@@ -21,7 +21,7 @@ const WEIGHT_MOST: f32 = 1e4;
 const MAX_HEADER_BYTES: u64 = 64 << 10;
 
 #[derive(RustEmbed)]
-#[folder = "../assets/policies"]
+#[folder = "../../assets/policies"]
 #[include = "*.safetensors"]
 struct Assets;
 

@@ -53,7 +53,7 @@ impl Numeric for AttractorLaw {}
 
 /// Parameters as they are hashed. The walls' group came later: at its defaults it is left out, so that what was recorded
 /// before keeps its hashes.
-pub(crate) struct Hashed<'a>(pub &'a Parameters);
+pub struct Hashed<'a>(pub &'a Parameters);
 
 macro_rules! parameters {
     ($($group:ident {$(

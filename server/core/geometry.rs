@@ -5,25 +5,25 @@
 
 mod band;
 
+#[cfg(feature = "schema")]
 use crate::schema::Numbers2;
 pub use band::Band;
 pub use nalgebra::{
     Isometry3, Matrix3, Matrix6, Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3, Vector6,
 };
 use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 /// A filled polygon with holes, in metres.
 ///
 /// `exterior` runs counter-clockwise and each hole clockwise; no ring repeats its first point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 pub struct Polygon {
     /// Outer ring, `[x_m, y_m]` for each vertex.
-    #[schema(value_type = Vec<Numbers2>)]
+    #[cfg_attr(feature = "schema", schema(value_type = Vec<Numbers2>))]
     pub exterior: Vec<[f64; 2]>,
     /// Inner rings.
-    #[schema(value_type = Vec<Vec<Numbers2>>)]
+    #[cfg_attr(feature = "schema", schema(value_type = Vec<Vec<Numbers2>>))]
     pub holes: Vec<Vec<[f64; 2]>>,
 }
 
@@ -35,7 +35,8 @@ impl Polygon {
 }
 
 /// An axis-aligned rectangle, in metres.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 pub struct Rect {
     /// Smallest x.
     pub x_min_m: f64,

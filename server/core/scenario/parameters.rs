@@ -3,6 +3,8 @@
 mod descriptor;
 mod policy;
 mod presets;
+#[cfg(feature = "schema")]
+mod schema;
 mod set;
 mod table;
 
@@ -15,7 +17,7 @@ pub use descriptor::{Bound, Group, Kind, Number, Parameter, Unit};
 pub use policy::{AddedPolicy, RlPolicy};
 pub use presets::{Preset, PresetKind};
 pub use set::SetError;
-pub(crate) use table::Hashed;
+pub use table::Hashed;
 pub use table::Parameters;
 
 /// Which switching law runs.

@@ -1,8 +1,6 @@
 //! Scripted disturbances: they move the bead or blind the tracker at a given time.
 
 use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 /// Maximum number of disturbances in a script.
 pub const SCRIPT_LIMIT: usize = 64;
@@ -15,7 +13,8 @@ pub const MOST_DRIFT_N: f64 = 0.01;
 /// Longest drift or dropout.
 pub const MOST_SECONDS: f64 = 60.0;
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Disturbance {
     /// The bead is lifted and put down here, or at the nearest place where it fits.
@@ -29,11 +28,12 @@ pub enum Disturbance {
 }
 
 /// When a scripted disturbance is applied. Those that wait for the bead are applied in the order of the script.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum When {
     /// Before this tick.
-    Tick(#[ts(type = "number")] u64),
+    Tick(#[cfg_attr(feature = "schema", ts(type = "number"))] u64),
     /// At this control step, 1 to 20,000, of the first goal that reaches it.
     Step(u32),
     /// When the bead's x passes this one, in either direction.
@@ -56,7 +56,8 @@ impl When {
 }
 
 /// A disturbance with its time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scripted {
     pub at: When,
