@@ -12,7 +12,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
 use crate::camera::Gpu;
-use crate::faults;
+use ferry_core::panics;
 
 pub use life::{Life, Stage};
 pub use shelf::{Shelf, Shelved};
@@ -109,7 +109,7 @@ impl Shared {
 /// A panic ends only its own job.
 fn run(job: &dyn Job, workshop: &Workshop) {
     if let Err(panic) = catch_unwind(AssertUnwindSafe(|| job.run(workshop))) {
-        job.fail(format!("the job panicked: {}", faults::words(&*panic)));
+        job.fail(format!("the job panicked: {}", panics::message(&*panic)));
     }
 }
 

@@ -30,6 +30,7 @@ pub mod camera;
 pub mod cli;
 pub mod evaluate;
 pub mod export;
+#[cfg(test)]
 mod faults;
 pub mod files;
 pub mod http;

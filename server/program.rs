@@ -6,14 +6,9 @@ use std::time::{Duration, Instant};
 use tokio::sync::{mpsc, oneshot};
 
 use ferry_core::control::transport::program::Answer;
-use ferry_core::geometry::Rect;
 use ferry_core::image::ImageSource;
-use ferry_core::perception::Percept;
-use ferry_core::scenario::Parameters;
-use ferry_core::trial::{Input, Question, REASON_BYTES_MOST, Seen, Source, TickRecord, Trial, TrialError};
+use ferry_core::trial::{ControlQuery, Seen, Source, TickRecord, Trial, TrialError};
 
-/// A live session waits this long for an answer; then the arm holds for this control step.
-pub const LIVE_WITHIN: Duration = Duration::from_millis(100);
 /// An evaluation or a comparison waits this long.
 const TRIAL_WITHIN: Duration = Duration::from_secs(10);
 /// Questions of all sessions that may wait for one program.
@@ -22,7 +17,7 @@ const QUESTIONS_MOST: usize = 64;
 /// What a program gets.
 #[derive(Debug)]
 pub enum Sent {
-    Question(Box<Asked>),
+    Question(Asked),
     /// There are no more questions in the trial of this name.
     Ended(String),
 }
@@ -32,12 +27,7 @@ pub enum Sent {
 pub struct Asked {
     /// Name of the session, or of the trial of an evaluation.
     pub trial: String,
-    pub question: Question,
-    /// The camera's image.
-    pub percept: Percept,
-    /// Dark blocks of the image on the table.
-    pub obstacles: Vec<Rect>,
-    pub leg: Leg,
+    pub query: Box<ControlQuery>,
     /// How long the answer is waited for.
     pub within: Duration,
     pub reply: Reply,
@@ -63,27 +53,6 @@ impl Reply {
     pub fn give(self, answer: Answer) -> bool {
         self.0.send(answer).is_ok()
     }
-}
-
-/// The part of a trial between two fetches or goals.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
-    /// Counts the trials of a session.
-    pub trial: u64,
-    /// Counts switches within a trial.
-    pub switches: u32,
-    pub map: String,
-    pub workspace: Rect,
-    pub parameters: Parameters,
-}
-
-/// The trial in which a program is asked.
-#[derive(Clone, Copy, Debug)]
-pub struct Place<'a> {
-    /// Name of the session, or of the trial of an evaluation.
-    pub name: &'a str,
-    /// Counts the trials of a session.
-    pub number: u64,
 }
 
 /// What a connected program gets; `None` when it was disconnected.
@@ -170,17 +139,16 @@ impl Carrier<'_> {
     /// In an asynchronous task.
     pub fn decide(self, trial: &mut Trial, camera: &mut dyn ImageSource) -> Result<Seen, ProgramError> {
         let seen = trial.see(camera).map_err(TrialError::from)?;
-        if let Some(question) = trial.question(&seen) {
-            let answer = self.answer(trial, &seen, question)?;
-            give(trial, answer)?;
+        if let Some(query) = trial.control_query(&seen, 0) {
+            let answer = self.answer(Box::new(query))?;
+            trial.apply_answer(answer)?;
         }
         Ok(seen)
     }
 
-    fn answer(self, trial: &Trial, seen: &Seen, question: Question) -> Result<Answer, ProgramError> {
+    fn answer(self, query: Box<ControlQuery>) -> Result<Answer, ProgramError> {
         let gone = || ProgramError::NotAsked { program: self.program.name.clone(), error: NotAsked::NotConnected };
-        let place = Place { name: self.trial, number: 0 };
-        let (asked, answered) = asked(place, trial, seen, question, TRIAL_WITHIN);
+        let (asked, answered) = asked(self.trial, query, TRIAL_WITHIN);
         let began = Instant::now();
         let connection = self.program.connection().map_err(|_| gone())?;
         connection.blocking_send(asked).map_err(|_| gone())?;
@@ -230,18 +198,17 @@ impl Program {
         self.state().standing
     }
 
-    /// Asks about the control step that is due.
+    /// Asks about a control step. `trial` is the name of the session.
     ///
     /// # Errors
     /// [`NotAsked`].
     pub fn ask(
         &self,
-        place: Place<'_>,
-        trial: &Trial,
-        seen: &Seen,
-        question: Question,
+        trial: &str,
+        query: Box<ControlQuery>,
+        within: Duration,
     ) -> Result<oneshot::Receiver<Answer>, NotAsked> {
-        let (asked, answered) = asked(place, trial, seen, question, LIVE_WITHIN);
+        let (asked, answered) = asked(trial, query, within);
         self.connection()?.try_send(asked).map_err(|error| match error {
             mpsc::error::TrySendError::Full(_) => NotAsked::Busy,
             mpsc::error::TrySendError::Closed(_) => NotAsked::NotConnected,
@@ -282,25 +249,9 @@ impl Program {
     }
 }
 
-fn asked(
-    place: Place<'_>,
-    trial: &Trial,
-    seen: &Seen,
-    question: Question,
-    within: Duration,
-) -> (Sent, oneshot::Receiver<Answer>) {
-    let world = &trial.state().world;
-    let leg = Leg {
-        trial: place.number,
-        switches: world.counters.switches,
-        map: trial.scenario().map.clone(),
-        workspace: *trial.arena().map.workspace(),
-        parameters: world.parameters.clone(),
-    };
+fn asked(trial: &str, query: Box<ControlQuery>, within: Duration) -> (Sent, oneshot::Receiver<Answer>) {
     let (reply, answered) = Reply::new();
-    let (percept, obstacles) = (seen.percept.clone(), trial.blocks_m(seen));
-    let asked = Asked { trial: place.name.to_owned(), question, percept, obstacles, leg, within, reply };
-    (Sent::Question(Box::new(asked)), answered)
+    (Sent::Question(Asked { trial: trial.to_owned(), query, within, reply }), answered)
 }
 
 /// A tick of a trial; a carrier decides its control steps.
@@ -320,20 +271,6 @@ pub fn tick(
         None => Source::Camera(camera),
     };
     Ok(trial.tick(source)?)
-}
-
-/// Gives an answer to the trial; one that the trial refuses is a hold that says so.
-pub fn give(trial: &mut Trial, answer: Answer) -> Result<(), TrialError> {
-    let input = match answer {
-        Answer::Go { target_m } => Input::Go { x_m: target_m.x, y_m: target_m.y },
-        Answer::Hold { reason } => Input::Hold { reason },
-    };
-    if let Err(error) = trial.apply(input) {
-        let mut reason = error.to_string();
-        reason.truncate(reason.floor_char_boundary(REASON_BYTES_MOST));
-        trial.apply(Input::Hold { reason })?;
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use std::time::Duration;
 
 use ciborium::Value;
 use ferry::recording::{Archive, Options, Recorder, Retention};
-use ferry::session::{Command, Opening, Session};
+use ferry::session::SessionHandle;
 use ferry_core::scenario::{ControllerName, Scenario};
+use ferry_core::session::{Command, Opening};
 use ferry_core::trial::{Catalog, Entry, Input, InputLog};
 use flate2::{Compression, write::DeflateEncoder};
 use rayon::prelude::*;
@@ -57,7 +58,7 @@ fn part() -> Vec<Value> {
     let recorder = Recorder::in_archive(&archive, "main", options).unwrap();
     let scenario = Scenario { controller: ControllerName::Errt, disturbances: 2, ..Scenario::idle("posts", 1) };
     let session =
-        Session::start("main", scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
+        SessionHandle::start("main", scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
     let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
     let obey = |command| runtime.block_on(session.send(command)).unwrap();
     obey(Command::Input(Input::SetGoal { x_m: 0.12, y_m: -0.33 }));

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 const FLOORS: [&[&str]; 15] = [
-    &["schema", "names", "faults"],
+    &["schema", "names", "panics", "faults"],
     &["geometry"],
     &["image", "robot", "magnetics", "map"],
     &["plant"],

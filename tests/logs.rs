@@ -5,10 +5,11 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use ferry::recording::{Archive, Options, Recorder, Retention};
-use ferry::session::{Command, Kept, Opening, Session};
+use ferry::session::SessionHandle;
 use ferry_core::plant::{BeadMotion, PositionerKind};
 use ferry_core::robot::Joints;
 use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario};
+use ferry_core::session::{Command, Kept, Opening};
 use ferry_core::trial::{Catalog, Input, InputLog, LogError, Replayed, replay};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -81,7 +82,7 @@ fn play(archive: &Arc<Archive>, seed: u64, options: Options) {
     let recorder = Recorder::in_archive(archive, &name, options).unwrap();
     let scenario = Scenario { controller: ControllerName::ALL[seed as usize % 3], ..Scenario::idle("posts", seed) };
     let session =
-        Session::start(&name, scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
+        SessionHandle::start(&name, scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
     let runtime = clocked();
     let obey = |command| runtime.block_on(session.send(command));
     obey(Command::SetSpeed(8.0)).unwrap();
@@ -154,7 +155,7 @@ fn parts_have_no_gap_and_each_replays_alone() {
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
     let options = Options { part: Duration::from_millis(250), ..Options::LIVE };
     let recorder = Recorder::in_archive(&archive, "main", options).unwrap();
-    let session = Session::start(
+    let session = SessionHandle::start(
         "main",
         Scenario::idle("posts", 1),
         Opening::Fresh,
@@ -198,7 +199,7 @@ fn the_largest_size_of_an_archive_holds_while_a_session_is_recorded() {
     let recorder = Recorder::in_archive(&archive, "main", options).unwrap();
     let scenario = Scenario::idle("posts", 1);
     let session =
-        Session::start("main", scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
+        SessionHandle::start("main", scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
     let runtime = clocked();
     let (mut most, mut parts) = (0, std::collections::BTreeSet::new());
     while parts.len() < 8 {
@@ -226,7 +227,7 @@ fn without_room_a_recording_does_not_begin_and_says_why() {
 }
 
 /// Until a state that was published says so.
-fn wait_for(session: &Session, what: &str) {
+fn wait_for(session: &SessionHandle, what: &str) {
     let began = std::time::Instant::now();
     while !session.watch().borrow().recording.starts_with(what) {
         assert!(began.elapsed() < Duration::from_secs(30), "{:?}", session.watch().borrow().recording);
@@ -243,7 +244,8 @@ fn a_recording_whose_folder_is_gone_says_so_and_goes_on_when_it_is_back() {
         let recorder = Recorder::in_archive(&archive, "main", Options::LIVE).unwrap();
         let scenario = Scenario::idle("open", 1);
         let session =
-            Session::start("main", scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
+            SessionHandle::start("main", scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder))
+                .unwrap();
         let runtime = clocked();
         let obey = |command| runtime.block_on(session.send(command)).unwrap();
         obey(if runs { Command::Run } else { Command::Step(100) });

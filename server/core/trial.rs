@@ -7,6 +7,7 @@
 mod arena;
 mod case;
 mod catalog;
+mod control_query;
 mod decide;
 mod disturb;
 mod entry;
@@ -43,6 +44,7 @@ use crate::tracking::{self, TrackerParameters};
 pub use arena::Arena;
 pub use case::{Case, CaseError, CaseOutcome, Expectation, Timed};
 pub use catalog::Catalog;
+pub use control_query::{ControlQuery, Leg};
 pub use decide::Question;
 pub use disturb::far_point;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
@@ -374,7 +376,7 @@ mod tests {
 
     #[test]
     fn a_position_that_is_not_a_number_ends_the_trial() {
-        let arena = Arc::new(Arena::shipped("posts").unwrap());
+        let arena = Arena::shipped("posts").unwrap();
         let mut trial = Trial::new(Scenario::idle("posts", 1), arena).unwrap();
         let mut camera = EmptyFloor::default();
         trial.tick(Source::Camera(&mut camera)).unwrap();

@@ -8,31 +8,32 @@ use super::{Server, Settings};
 use crate::camera::Gpu;
 use crate::faults;
 use crate::recording::{Archive, Options, Recorder, Retention};
-use crate::session::{Command, CommandError, Opening, SPEED_MAX, Session};
+use crate::session::{CommandError, SessionHandle};
 use ferry_core::scenario::{ControllerName, Scenario};
+use ferry_core::session::{Command, Opening, SPEED_MAX};
 use ferry_core::trial::{Catalog, Input, InputLog, Nowhere, Sink};
 
-fn start(name: &str, controller: ControllerName, sink: Box<dyn Sink>) -> Session {
+fn start(name: &str, controller: ControllerName, sink: Box<dyn Sink>) -> SessionHandle {
     let gpu = Gpu::open(Default::default()).unwrap();
     let scenario = Scenario { controller, ..Scenario::idle("posts", 1) };
-    Session::start(name, scenario, Opening::Fresh, Catalog::default(), gpu, sink).unwrap()
+    SessionHandle::start(name, scenario, Opening::Fresh, Catalog::default(), gpu, sink).unwrap()
 }
 
-async fn reason_of_end(session: &Session) -> String {
+async fn reason_of_end(session: &SessionHandle) -> String {
     let mut views = session.watch();
     let ended = views.wait_for(|view| view.ended.is_some());
     let view = tokio::time::timeout(Duration::from_secs(20), ended).await.expect("the session ends").unwrap();
     view.ended.clone().unwrap()
 }
 
-async fn wait_for_a_second(session: &Session) {
+async fn wait_for_a_second(session: &SessionHandle) {
     let mut views = session.watch();
     let from = views.borrow().moment.tick;
     let later = views.wait_for(|view| view.moment.tick >= from + 125);
     tokio::time::timeout(Duration::from_secs(20), later).await.expect("the session continues").unwrap();
 }
 
-async fn run(session: &Session) {
+async fn run(session: &SessionHandle) {
     session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
     session.send(Command::Run).await.unwrap();
     wait_for_a_second(session).await;
@@ -86,7 +87,7 @@ async fn a_fault_in_the_recording_is_shown_and_the_session_continues() {
 async fn a_lost_graphics_device_is_replaced_and_the_session_continues() {
     let gpu = Gpu::open(Default::default()).unwrap();
     let scenario = Scenario::idle("posts", 1);
-    let session = Session::start(
+    let session = SessionHandle::start(
         "lost device",
         scenario,
         Opening::Fresh,

@@ -31,8 +31,9 @@ use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
 use super::socket::{Incoming, Limits, Socket, Upgrade};
 use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, MAX_MESSAGE_BYTES, ServerMessage};
-use crate::session::{Command, CommandError};
+use crate::session::CommandError;
 use ferry_core::scenario::ControllerName;
+use ferry_core::session::Command;
 use ferry_core::trial::Case;
 
 const LIMITS: Limits = Limits { message_bytes: MAX_MESSAGE_BYTES, ping_every: Duration::from_secs(15) };
@@ -300,7 +301,11 @@ impl Connection {
                 self.hub.compare(tick, &controllers).await?;
             }
             ClientMessage::OpenCase { case } => {
-                let case = Box::new(Case::from_json(case.as_bytes()).map_err(CommandError::from)?);
+                let case = Box::new(
+                    Case::from_json(case.as_bytes())
+                        .map_err(ferry_core::session::CommandError::from)
+                        .map_err(CommandError::from)?,
+                );
                 self.hub.session.send(Command::Open(case)).await?;
             }
             ClientMessage::OpenTry { recovery, cell, controller, repeat } => {
@@ -313,7 +318,7 @@ impl Connection {
             }
             ClientMessage::SelectController { controller: ControllerName::Program, program: Some(name) } => {
                 let program = self.server.programs.find(&name).ok_or(CommandError::NoProgram { name })?;
-                self.hub.session.send(Command::Attach(program)).await?;
+                self.hub.session.attach(program).await?;
             }
             ClientMessage::DriveRobot { press } => {
                 let twin = self.server.sessions.twin_of(&self.hub.id).ok_or(CommandError::NoRobot)?;

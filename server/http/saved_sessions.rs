@@ -7,8 +7,10 @@ use std::time::Duration;
 
 use super::live::Hub;
 use crate::files::replace;
-use crate::session::{Opening, Saved, Session, View};
+use crate::open;
+use crate::session::{SessionHandle, View};
 use ferry_core::scenario::ControllerName;
+use ferry_core::session::{Opening, Saved};
 use ferry_core::trial::LogError;
 
 pub const SAVE_EVERY: Duration = Duration::from_secs(1);
@@ -17,6 +19,8 @@ const SAVE_WITHIN: Duration = Duration::from_millis(500);
 /// Most files; the oldest of sessions that are not open are deleted.
 const MOST: usize = 256;
 const ENDING: &str = "ferry";
+/// Of a file: ten runs, each with a map of at most a few megabytes.
+const BYTES_MOST: u64 = 64 << 20;
 
 /// Differs whenever there is something new to save.
 #[derive(Clone, Copy, PartialEq)]
@@ -65,7 +69,7 @@ impl SavedSessions {
         if !path.exists() {
             return Opening::Fresh;
         }
-        match Saved::open(&path) {
+        match open::log_at_most(&path, BYTES_MOST).map(Saved::of) {
             Ok(saved) if self.start_over || after_fault => Opening::Beside(saved),
             Ok(saved) => Opening::Saved(saved),
             Err(error) => Opening::Unreadable(error),
@@ -73,8 +77,8 @@ impl SavedSessions {
     }
 
     /// A session that was just opened needs no saving yet. What it could not read is set aside, not replaced.
-    pub fn opened(&self, id: &str, session: &Session) {
-        if session.has_left_out() {
+    pub fn opened(&self, id: &str, session: &SessionHandle) {
+        if session.resumed().has_left_out {
             let path = self.path(id);
             let aside = path.with_extension("ferry-unreadable");
             match std::fs::rename(&path, &aside) {

@@ -16,9 +16,10 @@ use super::problem::Problem;
 use super::saved_sessions::{SAVE_EVERY, SavedSessions};
 use crate::camera::Gpu;
 use crate::recording::{Archive, Options, Recorder};
-use crate::session::{Command, CommandError, Opening, Session};
+use crate::session::{CommandError, SessionHandle};
 use crate::ur::{Robot, Twin};
 use ferry_core::scenario::Scenario;
+use ferry_core::session::{Command, Opening};
 use ferry_core::trial::{Catalog, Nowhere, Sink, TrialError};
 
 /// The session that exists from the start.
@@ -263,7 +264,7 @@ impl Sessions {
         let sink = self.sink(id);
         let is_saved = id != DEMO && !id.starts_with(NUMBERED);
         let opening = if is_saved { self.saved.opening(id, after_fault) } else { Opening::Fresh };
-        let session = Session::start(id, scenario, opening, self.catalog.clone(), self.gpu.clone(), sink)?;
+        let session = SessionHandle::start(id, scenario, opening, self.catalog.clone(), self.gpu.clone(), sink)?;
         if is_saved {
             self.saved.opened(id, &session);
         }
@@ -366,6 +367,6 @@ async fn to_its_end<T: Send + 'static>(
 fn not_opened(error: TrialError) -> Problem {
     match error {
         TrialError::Camera(_) | TrialError::Thread(_) => Problem::internal(error),
-        error => Problem::from(&CommandError::Trial(error)),
+        error => Problem::from(&CommandError::Session(error.into())),
     }
 }

@@ -7,7 +7,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
 use crate::camera::{CameraError, Gpu};
-use crate::faults;
+use ferry_core::panics;
 
 /// Why the workshop could not open.
 #[derive(Debug, thiserror::Error)]
@@ -61,7 +61,7 @@ impl Workshop {
         // A panic in the driver ends one job, not the waiting ones.
         let another = catch_unwind(AssertUnwindSafe(|| gpu.another()));
         let gpu = another.unwrap_or_else(|panic| {
-            let (adapter, reason) = (gpu.adapter_name().to_owned(), faults::words(&*panic));
+            let (adapter, reason) = (gpu.adapter_name().to_owned(), panics::message(&*panic));
             Err(CameraError::DeviceRefused { adapter, reason })
         })?;
         Ok(Self { pool: gentle_pool("job")?, gpu })

@@ -7,13 +7,13 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use crate::boards::{Entry, Signature};
-use crate::session::{Ended, Played, Standing};
 use ferry_core::challenge::{
     Attempt, Challenge, ChallengeName, Difficulty, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
 };
 use ferry_core::geometry::Point2;
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::Numbers2;
+use ferry_core::session::{Ended, Played, Standing};
 use ferry_core::trial::Case;
 
 pub use ghosts::{GhostMessage, Ghosts, MishapKind, MishapMessage, TraceMessage};

@@ -5,12 +5,12 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::seed;
-use crate::session::{Command, Kept};
 use ferry_core::challenge::ChallengeName;
 use ferry_core::geometry::Point2;
 use ferry_core::plant::PositionerKind;
 use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted};
 use ferry_core::schema::Numbers2;
+use ferry_core::session::{Command, Kept};
 use ferry_core::trial::Input;
 
 /// A message from a browser. Positions are in metres in `base`.

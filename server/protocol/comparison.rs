@@ -5,10 +5,11 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::OverlayMessage;
-use crate::session::{BranchPoint, Progress};
+use crate::program::Program;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::{Numbers2, Numbers4};
+use ferry_core::session::{BranchPoint, Progress};
 use ferry_core::trial::{Moment, Motion, TickRecord};
 
 /// Ticks between two samples of a branch: 25 Hz of simulated time.
@@ -163,9 +164,9 @@ impl ComparisonMessage {
 }
 
 impl Branch {
-    /// A branch without ticks.
-    pub fn begin(point: &BranchPoint, controller: ControllerName) -> Self {
-        let program = point.program().filter(|_| controller == ControllerName::Program);
+    /// A branch without ticks; the program carries only as the controller of that name.
+    pub fn begin(controller: ControllerName, program: Option<&Program>) -> Self {
+        let program = program.filter(|_| controller == ControllerName::Program);
         Self {
             controller,
             program: program.map(|program| program.name.clone()),

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::{ErrorMessage, ProgramAnswer, ProgramMessage};
-use crate::program::{Leg, Reply, Sent};
+use crate::program::{Reply, Sent};
 use ferry_core::control::transport::program::Answer;
-use ferry_core::trial::REASON_BYTES_MOST;
+use ferry_core::trial::{Leg, REASON_BYTES_MOST};
 
 /// The questions and answers of one program.
 pub struct Conversation {
@@ -48,20 +48,20 @@ impl Conversation {
     /// The messages for something that the program gets.
     pub fn tell(&mut self, sent: Sent) -> Vec<Outgoing> {
         let asked = match sent {
-            Sent::Question(asked) => *asked,
+            Sent::Question(asked) => asked,
             Sent::Ended(trial) => {
                 let is_known = self.legs.remove(&trial).is_some();
                 return is_known.then(|| Outgoing::from(&ProgramMessage::End { trial })).into_iter().collect();
             }
         };
         let mut messages = Vec::with_capacity(3);
-        if self.legs.get(&asked.trial) != Some(&asked.leg) {
-            messages.push(Outgoing::from(&ProgramMessage::start(&asked.trial, &asked.leg)));
-            self.legs.insert(asked.trial.clone(), asked.leg.clone());
+        if self.legs.get(&asked.trial) != Some(&asked.query.leg) {
+            messages.push(Outgoing::from(&ProgramMessage::start(&asked.trial, &asked.query.leg)));
+            self.legs.insert(asked.trial.clone(), asked.query.leg.clone());
         }
         self.next += 1;
         messages.push(Outgoing::from(&ProgramMessage::observe(self.next, &asked)));
-        messages.push(Outgoing::Image(asked.percept.gray.pixels));
+        messages.push(Outgoing::Image(asked.query.percept.gray.pixels));
         self.open.insert(self.next, asked.reply);
         messages
     }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::session::{Scenery, View};
+use crate::session::View;
 use ferry_core::control::transport::attractor::Attractor;
 use ferry_core::control::transport::attractor::Flow;
 use ferry_core::control::transport::errt::Errt;
@@ -14,6 +14,7 @@ use ferry_core::perception::{CellState, ObstacleMap, PixelRect};
 use ferry_core::policy::{Judgement, Policy};
 use ferry_core::scenario::RlPolicy;
 use ferry_core::schema::{Lists4, Numbers2, Numbers4, Rows3, Wholes4};
+use ferry_core::session::Scenery;
 use ferry_core::trial::{Arena, Motion, Sight};
 
 /// An obstacle as sensed for the attractor: a superellipse of exponent 4.

@@ -5,10 +5,12 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::ErrorMessage;
-use crate::program::{Asked, LIVE_WITHIN, Leg, Program};
+use crate::program::{Asked, Program};
 use ferry_core::control::transport::program::Answer;
 use ferry_core::geometry::{Point2, Rect};
 use ferry_core::scenario::Parameters;
+use ferry_core::session::ANSWER_WITHIN;
+use ferry_core::trial::{ControlQuery, Leg};
 
 /// Version of these messages. Increase it when an old program could misread the server.
 pub const PROGRAM_PROTOCOL_VERSION: u32 = 1;
@@ -102,7 +104,7 @@ impl ProgramAnswer {
 
 impl ProgramMessage {
     pub fn hello(name: &str) -> Self {
-        let answer_within_s = LIVE_WITHIN.as_secs_f64();
+        let answer_within_s = ANSWER_WITHIN.as_secs_f64();
         Self::Hello { protocol: PROGRAM_PROTOCOL_VERSION, name: name.to_owned(), answer_within_s }
     }
 
@@ -117,7 +119,8 @@ impl ProgramMessage {
     }
 
     pub fn observe(request: u64, asked: &Asked) -> Self {
-        let Asked { trial, question, percept, obstacles, within, .. } = asked;
+        let Asked { trial, query, within, .. } = asked;
+        let ControlQuery { question, percept, obstacles, .. } = &**query;
         let calibration = &percept.calibration;
         Self::Observe {
             request,

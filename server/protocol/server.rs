@@ -9,12 +9,13 @@ use super::{
     AttemptStanding, ComparisonMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding, RobotStanding,
     SeenMessage, TwinStanding,
 };
-use crate::session::{KeptRunSummary, OpenedCase, Scenery, View};
+use crate::session::View;
 use ferry_core::geometry::{Point2, Polygon, Rect};
 use ferry_core::plant::{BEAD_RADIUS_M, PositionerKind};
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::{ControllerName, Parameters, Scenario};
 use ferry_core::schema::{Numbers2, Numbers3, Numbers6};
+use ferry_core::session::{KeptRunSummary, OpenedCase, Scenery};
 
 /// Directions in which the scene gives the capture distances.
 const CAPTURE_DIRECTIONS: u32 = 72;

@@ -14,7 +14,6 @@ use crate::camera::VIEW_PX;
 use crate::evaluate::{Comparison, PairedMean, Row, Setting, Variation};
 use crate::learn::Recipe;
 use crate::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
-use crate::session::SPEED_MAX;
 use ferry_core::control::CONTROL_PERIOD_S;
 use ferry_core::control::transport::errt::MOST_EDGES;
 use ferry_core::geometry::{Polygon, Rect};
@@ -26,6 +25,7 @@ use ferry_core::scenario::{
     ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scenario,
     Scripted, When,
 };
+use ferry_core::session::SPEED_MAX;
 use ferry_core::trial::{EventKind, GOAL_RADIUS_M};
 
 const HEADER: &str =

@@ -4,11 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::camera::Gpu;
+use crate::camera::{Camera, Gpu};
 use crate::program::ProgramError;
 use crate::protocol::{Branch, ComparisonMessage};
 use crate::session::BranchPoint;
 use ferry_core::scenario::ControllerName;
+use ferry_core::trial::TrialError;
 
 /// Interval of progress messages.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
@@ -22,16 +23,17 @@ pub fn compare(
     is_wanted: &dyn Fn() -> bool,
     send: &dyn Fn(ComparisonMessage),
 ) {
-    let mut comparison = ComparisonMessage::begin(trial, point);
+    let mut comparison = ComparisonMessage::begin(trial, &point.point);
     send(comparison.clone());
     let run = || -> Result<(), ProgramError> {
-        let mut camera = point.camera(gpu)?;
+        let scene = point.point.arena().static_scene();
+        let mut camera = Camera::of(gpu, scene).map_err(TrialError::from)?;
         for &controller in controllers {
-            comparison.branches.push(Branch::begin(point, controller));
+            comparison.branches.push(Branch::begin(controller, point.program().map(|program| &**program)));
             let mut told = Instant::now();
             point.branch(controller, &mut camera, &mut |progress| {
                 if let Some(branch) = comparison.branches.last_mut() {
-                    branch.follow(point, &progress);
+                    branch.follow(&point.point, &progress);
                 }
                 if !is_wanted() {
                     return ControlFlow::Break(());

@@ -8,7 +8,7 @@ use tokio::sync::Notify;
 use tokio::time::Instant;
 
 use super::hub::Hub;
-use crate::session::Command;
+use ferry_core::session::Command;
 use ferry_core::trial::Input;
 
 /// Interval of the watchdog.

@@ -18,9 +18,10 @@ use crate::protocol::{
     BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
     ServerMessage, StateMessage,
 };
-use crate::session::{CommandError, Recalled, Session, View};
+use crate::session::{CommandError, SessionHandle, View};
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
+use ferry_core::session::Recalled;
 
 /// Camera frames are sent at most thirty times a second.
 const CAMERA_EVERY: Duration = Duration::from_millis(33);
@@ -58,7 +59,7 @@ impl Encoded {
 /// A session with its browsers.
 pub struct Hub {
     pub id: String,
-    pub session: Session,
+    pub session: SessionHandle,
     opened: Timestamp,
     gpu: Arc<Gpu>,
     encoded: watch::Receiver<Encoded>,
@@ -85,7 +86,7 @@ pub struct Hub {
 
 impl Hub {
     /// Starts encoding a session's views; `maps` changes whenever the list of maps changes.
-    pub fn start(id: &str, session: Session, mut maps: watch::Receiver<u64>, gpu: Arc<Gpu>) -> Arc<Self> {
+    pub fn start(id: &str, session: SessionHandle, mut maps: watch::Receiver<u64>, gpu: Arc<Gpu>) -> Arc<Self> {
         let now = Instant::now();
         let views = session.watch();
         let version = *maps.borrow_and_update();
@@ -181,7 +182,7 @@ impl Hub {
         let mut asked = ControllerName::OFFERED.to_vec();
         asked.extend(point.program().map(|_| ControllerName::Program));
         asked.retain(|name| controllers.is_empty() || controllers.contains(name));
-        if !point.has_goal() {
+        if !point.point.has_goal() {
             return Err(CommandError::NoGoal { tick });
         }
         let number = self.comparisons.fetch_add(1, Ordering::Relaxed) + 1;
@@ -246,7 +247,7 @@ impl Hub {
             asked: operates && seats.asking.is_some(),
             adapter: self.gpu.adapter_name().to_owned(),
             opened: self.opened.to_string(),
-            resumed_s: self.session.resumed_tick().map(|tick| tick as f64 * SERVO_PERIOD_S),
+            resumed_s: self.session.resumed().tick.map(|tick| tick as f64 * SERVO_PERIOD_S),
         }
     }
 }

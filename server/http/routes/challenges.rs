@@ -21,9 +21,9 @@ use crate::jobs::gentle_pool;
 use crate::protocol::{
     AttemptAnswer, AttemptQuery, AttemptReport, ChallengeReport, ChallengeSummary, Challenges, Ghosts, Period,
 };
-use crate::session::Ended;
 use ferry_core::challenge::{Attempt, AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
 use ferry_core::scenario::ControllerName;
+use ferry_core::session::Ended;
 use ferry_core::trial::TrialError;
 
 /// Attempts wait for each other, and so do the controllers' runs. An attempt never waits for them.

@@ -8,21 +8,23 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::sessions::find;
+use crate::camera::Camera;
 use crate::http::Server;
 use crate::http::body::attachment;
 use crate::http::path::{MomentPath, Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::protocol::MomentMessage;
-use crate::session::{BranchPoint, CommandError, Recalled};
+use crate::session::CommandError;
 use ferry_core::image::EncodeError;
+use ferry_core::session::{self, BranchPoint, Recalled};
 use ferry_core::trial::{Case, Moment, TickRecord, TrialError};
 
 /// Repeats the moment beside the session.
 async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(BranchPoint, Moment, TickRecord), Problem> {
-    let point = find(server, id)?.session.recall(tick, Recalled::Step).await.map_err(|error| problem(&error))?;
+    let point = find(server, id)?.session.recall(tick, Recalled::Step).await.map_err(|error| problem(&error))?.point;
     let relived = server.work(move |server| {
-        let mut camera = point.camera(&server.gpu)?;
+        let mut camera = Camera::of(&server.gpu, point.arena().static_scene())?;
         let (before, record) = point.relive(&mut camera)?;
         Ok::<_, TrialError>((point, before, record))
     });
@@ -32,7 +34,7 @@ async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(BranchPoin
 /// A moment that is no longer kept is not found; other errors are those of commands.
 fn problem(error: &CommandError) -> Problem {
     match error {
-        CommandError::Range { field, .. } => {
+        CommandError::Session(session::CommandError::Range { field, .. }) => {
             Problem::new(StatusCode::NOT_FOUND, "not_held", error.to_string()).field(field)
         }
         error => Problem::from(error),

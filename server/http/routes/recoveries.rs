@@ -16,8 +16,8 @@ use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable
 use crate::http::sessions::MAIN;
 use crate::protocol::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary, RecoveryTrials};
 use crate::recovery::{RecoveryJob, Report, Start, SubmitRecoveryError};
-use crate::session::Recalled;
 use ferry_core::scenario::{Scenario, Shipped};
+use ferry_core::session::Recalled;
 use ferry_core::trial::{Case, Origin, Timed, Trial, TrialError};
 
 /// The recovery maps: running, waiting, and the last ended ones.
@@ -84,8 +84,8 @@ async fn start(server: &Arc<Server>, query: &RecoveryQuery) -> Result<(Option<(S
     let timed = |(tick, input)| Timed { tick, input };
     let start = Start {
         program: point.program().cloned(),
-        told: point.told.map(|told| told.into_iter().map(timed).collect()),
-        origin: point.origin,
+        told: point.point.told.map(|told| told.into_iter().map(timed).collect()),
+        origin: point.point.origin,
     };
     Ok((Some((id.to_owned(), trial)), start))
 }

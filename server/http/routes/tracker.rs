@@ -12,7 +12,8 @@ use crate::http::path::{Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, Unavailable};
 use crate::protocol::TrackerEstimate;
-use crate::session::{CommandError, Recalled};
+use crate::session::CommandError;
+use ferry_core::session::{self, Recalled};
 
 /// The tracker's estimate of the bead, and the goal.
 ///
@@ -32,11 +33,11 @@ pub async fn tracker(
     };
     let moment = if running { Recalled::Step } else { Recalled::Present };
     let point = hub.session.recall(tick, moment).await.map_err(|error| match error {
-        CommandError::Range { .. } => {
+        CommandError::Session(session::CommandError::Range { .. }) => {
             let detail = format!("the session went back before tick {tick} meanwhile; try again");
             Problem::new(StatusCode::SERVICE_UNAVAILABLE, "trial_changed", detail)
         }
         error => Problem::from(&error),
     })?;
-    Ok(Json(TrackerEstimate::from(&point.origin.state.world)))
+    Ok(Json(TrackerEstimate::from(&point.point.origin.state.world)))
 }

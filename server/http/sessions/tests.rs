@@ -78,15 +78,15 @@ async fn a_session_goes_on_from_the_disk() {
     let after = again.session.watch().borrow().clone();
     assert_eq!((after.world_hash, after.moment.tick, after.running), (view.world_hash, 50, false));
     assert_eq!(after.scenery.scenario.seed, 9);
-    assert_eq!(again.session.resumed_tick(), Some(50));
+    assert_eq!(again.session.resumed().tick, Some(50));
     let kept: Vec<_> = after.scenery.kept_runs.iter().map(|run| (run.seed, run.tick)).collect();
     assert_eq!(kept, [(1, 100)]);
-    let report = |session: &Session| session.watch().borrow().journal.last().unwrap().text.clone();
+    let report = |session: &SessionHandle| session.watch().borrow().journal.last().unwrap().text.clone();
     assert_eq!(report(&again.session), "the session goes on from its last saved state");
     again.session.send(Command::Return(after.scenery.kept_runs[0].number)).await.unwrap();
     let returned = again.session.watch().borrow().clone();
     assert_eq!((returned.moment.tick, returned.moment.goal_m.is_some()), (100, true));
-    assert_eq!(second.find(MAIN).unwrap().session.resumed_tick(), None, "nothing happened in main");
+    assert_eq!(second.find(MAIN).unwrap().session.resumed().tick, None, "nothing happened in main");
     second.hold().await;
 
     // Of a trial that cannot be restored, only that trial is left out, and the file is kept.
@@ -99,7 +99,7 @@ async fn a_session_goes_on_from_the_disk() {
     std::fs::write(&file, &bytes).unwrap();
     let third = sessions(&folder, settings());
     let partly = third.open("anna").await.unwrap();
-    assert_eq!(partly.session.resumed_tick(), Some(100));
+    assert_eq!(partly.session.resumed().tick, Some(100));
     let text = report(&partly.session);
     assert!(
         text.contains("goes on") && text.contains("a saved trial could not be read: parameters: threshold_m is -1"),
@@ -116,7 +116,7 @@ async fn a_session_goes_on_from_the_disk() {
     std::fs::write(&file, &bytes).unwrap();
     let fourth = sessions(&folder, settings());
     let fresh = fourth.open("anna").await.unwrap();
-    assert_eq!((fresh.session.watch().borrow().moment.tick, fresh.session.resumed_tick()), (0, None));
+    assert_eq!((fresh.session.watch().borrow().moment.tick, fresh.session.resumed().tick), (0, None));
     let text = report(&fresh.session);
     assert!(text.starts_with("the session started over; a saved trial could not be read: log: damaged"), "{text}");
     assert_eq!(std::fs::read(&aside).unwrap(), bytes);
@@ -142,14 +142,14 @@ async fn what_a_rewind_left_behind_survives_a_restart_and_a_deleted_session_does
     second.saved.save([again.clone()]).await.unwrap();
     assert!(second.discard("anna").await);
     let fresh = second.open("anna").await.unwrap();
-    assert_eq!((fresh.session.watch().borrow().moment.tick, fresh.session.resumed_tick()), (0, None));
+    assert_eq!((fresh.session.watch().borrow().moment.tick, fresh.session.resumed().tick), (0, None));
 
     // Also of a session that is not open; names that are not names are no paths.
     obey(&fresh, Command::Step(10)).await;
     second.hold().await;
     let third = sessions(&folder, settings());
     assert!(third.discard("anna").await && !third.discard("anna").await && !third.discard("../sessions/anna").await);
-    assert_eq!(third.open("anna").await.unwrap().session.resumed_tick(), None);
+    assert_eq!(third.open("anna").await.unwrap().session.resumed().tick, None);
 }
 
 #[test]

@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use super::CommandError;
 use super::playing::Void;
-use super::worker::Worker;
-use crate::camera::ImageSource;
-use ferry_core::trial::{Input, InputError};
+use super::{CommandError, Session};
+use crate::image::ImageSource;
+use crate::trial::{Input, InputError};
 
-impl<E: ImageSource> Worker<E> {
+impl<E: ImageSource> Session<E> {
     pub(super) fn input(&mut self, mut input: Input) -> Result<(), CommandError> {
         let configures = matches!(input, Input::Configure(_));
         let steers = matches!(input, Input::Steer { .. });
@@ -17,12 +16,12 @@ impl<E: ImageSource> Worker<E> {
         }
         let tick = self.trial.state().world.tick;
         // Hashes cost more than most inputs and are needed only after a rewind.
-        let before = self.timeline.reaches_past(tick).then(|| self.trial.state().hashes());
+        let before = self.history.timeline().reaches_past(tick).then(|| self.trial.state().hashes());
         let as_it_was = self.hand_is_stale.then(|| self.trial.snapshot());
         if !matches!(input, Input::Release) {
             self.drop_stale_hand()?;
         }
-        let done = self.apply(input);
+        let done = self.operate(input);
         if let (Err(_), Some(state)) = (&done, as_it_was) {
             self.trial.restore(state);
             self.hand_is_stale = true;
@@ -44,7 +43,7 @@ impl<E: ImageSource> Worker<E> {
         Ok(())
     }
 
-    fn apply(&mut self, input: Input) -> Result<(), InputError> {
+    fn operate(&mut self, input: Input) -> Result<(), InputError> {
         let releases_stale_hand = self.hand_is_stale && matches!(input, Input::Release);
         if releases_stale_hand { Ok(()) } else { self.trial.operate(input, !self.running) }
     }
@@ -59,15 +58,8 @@ impl<E: ImageSource> Worker<E> {
 
     /// Drops everything after a tick. What a rewind has left behind becomes a run.
     pub(super) fn forget_after(&mut self, tick: u64) {
-        if let Some(end) = self.end.take()
-            && self.timeline.reaches_past(tick)
-        {
-            self.keep_run(end);
+        if self.history.forget_after(tick, &self.trial, self.scenery.case.as_ref()) {
             self.scenery = Arc::new(self.next_scenery(0));
-        }
-        self.timeline.forget_after(tick);
-        if self.journal.iter().any(|told| told.tick > tick) {
-            Arc::make_mut(&mut self.journal).retain(|told| told.tick <= tick);
         }
     }
 }

@@ -1,11 +1,9 @@
 //! Pacing of simulated time by the wall clock: when the next tick is due, and the achieved speed.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use ferry_core::robot::ur5::SERVO_PERIOD_S;
+use crate::robot::ur5::SERVO_PERIOD_S;
 
-/// How often a paused session looks at its recording.
-pub const LOOK_EVERY: Duration = Duration::from_millis(300);
 /// Minimum speed, simulated seconds per second.
 pub const SPEED_MIN: f64 = 0.125;
 /// Maximum requested speed; the achieved speed may be lower.
@@ -19,8 +17,8 @@ const WINDOW: Duration = Duration::from_millis(500);
 #[derive(Debug)]
 pub struct Pace {
     factor: f64,
-    due: Instant,
-    window_start: Instant,
+    due: Duration,
+    window_start: Duration,
     window_ticks: u32,
     achieved: f64,
     /// Latest tick of this window and of the previous one.
@@ -31,7 +29,7 @@ pub struct Pace {
 
 impl Pace {
     /// A schedule that starts now.
-    pub fn new(factor: f64, now: Instant) -> Self {
+    pub fn new(factor: f64, now: Duration) -> Self {
         Self {
             factor,
             due: now,
@@ -65,30 +63,30 @@ impl Pace {
     }
 
     /// Changes the speed.
-    pub fn set_factor(&mut self, factor: f64, now: Instant) {
+    pub fn set_factor(&mut self, factor: f64, now: Duration) {
         *self = Self { achieved: self.achieved, missed: self.missed, ..Self::new(factor, now) };
     }
 
     /// Restarts the schedule after a pause.
-    pub fn restart(&mut self, now: Instant) {
+    pub fn restart(&mut self, now: Duration) {
         *self = Self { missed: self.missed, ..Self::new(self.factor, now) };
     }
 
     /// Time left until the next tick; zero when it is due.
-    pub fn wait(&self, now: Instant) -> Duration {
-        self.due.saturating_duration_since(now)
+    pub fn wait(&self, now: Duration) -> Duration {
+        self.due.saturating_sub(now)
     }
 
     /// Notes a finished tick.
-    pub fn ticked(&mut self, now: Instant) {
-        self.latest = self.latest.max(now.saturating_duration_since(self.due));
+    pub fn ticked(&mut self, now: Duration) {
+        self.latest = self.latest.max(now.saturating_sub(self.due));
         self.due += Duration::from_secs_f64(SERVO_PERIOD_S / self.factor);
-        if now.saturating_duration_since(self.due) > CATCH_UP {
+        if now.saturating_sub(self.due) > CATCH_UP {
             self.due = now;
             self.missed += 1;
         }
         self.window_ticks += 1;
-        let span = now.saturating_duration_since(self.window_start);
+        let span = now.saturating_sub(self.window_start);
         if span >= WINDOW {
             self.achieved = f64::from(self.window_ticks) * SERVO_PERIOD_S / span.as_secs_f64();
             self.lateness = std::mem::take(&mut self.latest);
@@ -104,7 +102,7 @@ mod tests {
 
     #[test]
     fn ticks_come_at_the_requested_rate_and_lost_time_is_skipped() {
-        let start = Instant::now();
+        let start = Duration::from_secs(7);
         let mut pace = Pace::new(2.0, start);
         for _ in 0..10 {
             pace.ticked(start);
@@ -122,7 +120,7 @@ mod tests {
 
     #[test]
     fn the_achieved_speed_is_simulated_time_over_wall_time() {
-        let start = Instant::now();
+        let start = Duration::from_secs(7);
         let mut pace = Pace::new(1.0, start);
         for tick in 1..=63 {
             pace.ticked(start + Duration::from_millis(16) * tick);

@@ -5,16 +5,15 @@ use std::sync::Arc;
 use super::kept_runs::KeptRun;
 use super::opened_case::OpenedCase;
 use super::timeline::Timeline;
-use super::worker::{End, Worker};
-use super::{CommandError, Kept, Scenery};
-use crate::camera::ImageSource;
-use ferry_core::map::is_added;
-use ferry_core::scenario::Scenario;
-use ferry_core::trial::{
+use super::{CommandError, Kept, Scenery, Session};
+use crate::image::ImageSource;
+use crate::map::is_added;
+use crate::scenario::Scenario;
+use crate::trial::{
     Arena, Beginning, Case, Event, EventKind, Input, InputError, Origin, Sight, Timed, Trial, TrialError,
 };
 
-impl<E: ImageSource> Worker<E> {
+impl<E: ImageSource> Session<E> {
     pub(super) fn load(&mut self, mut scenario: Scenario, kept: Kept) -> Result<(), CommandError> {
         // Only a name: no path from a client touches the file system.
         let arena = self.scenery.catalog.arena(&scenario.map)?;
@@ -57,7 +56,7 @@ impl<E: ImageSource> Worker<E> {
     ) -> Result<(), CommandError> {
         let trial = Trial::new(scenario, arena)?;
         let sight = trial.observe(&mut self.camera).map_err(TrialError::from)?;
-        self.leave();
+        self.history.leave(&self.trial, self.scenery.case.as_ref());
         self.playing = None;
         self.trial = trial;
         self.running = false;
@@ -65,56 +64,29 @@ impl<E: ImageSource> Worker<E> {
         self.scenery = Arc::new(Scenery { case, ..self.next_scenery(1) });
         self.sink.begin(&self.trial, Beginning::SetUp);
         self.sight = Arc::new((0, sight));
-        self.timeline.keep(self.trial.snapshot());
+        self.history.keep_state(self.trial.snapshot());
         let scenario = self.trial.scenario();
         let inputs = self.scenery.case.as_ref().map(|case| case.inputs().len());
         let case = inputs.map_or(String::new(), |count| format!(", test case with {count} inputs"));
         let text = format!("set up: map {}, seed {}{case}", scenario.map, scenario.seed);
         let event = Event::new(0, EventKind::Session, text);
-        self.sink.note(&event);
-        self.report(event);
+        self.note(event);
         self.apply_case();
         if !self.trial.waiting_inputs().is_empty() {
-            self.timeline.keep(self.trial.snapshot());
+            self.history.keep_state(self.trial.snapshot());
             self.observe();
         }
         Ok(())
     }
 
-    /// Keeps the trial with all that happened, before another one takes its place.
-    fn leave(&mut self) {
-        let end = self.end.take().unwrap_or_else(|| self.present());
-        self.keep_run(end);
-        (self.timeline, self.journal) = Default::default();
-    }
-
-    pub(super) fn present(&self) -> End {
-        End { state: self.trial.snapshot(), waiting: self.trial.waiting_inputs().to_vec() }
-    }
-
-    pub(super) fn keep_run(&mut self, End { state, waiting }: End) {
-        let mut timeline = self.timeline.clone();
-        // The state contains what these inputs did, but no tick has noted them.
-        timeline.note(state.world.tick, &waiting);
-        self.kept_runs.keep(KeptRun {
-            scenario: self.trial.scenario().clone(),
-            arena: self.trial.arena().clone(),
-            state,
-            timeline,
-            journal: self.journal.clone(),
-            case: self.scenery.case.clone(),
-        });
-    }
-
     pub(super) fn return_to(&mut self, number: u32) -> Result<(), CommandError> {
-        let run = self.kept_runs.find(number).ok_or(CommandError::NoRun { number })?;
+        let run = self.history.kept_runs().find(number).ok_or(CommandError::NoRun { number })?;
         let prepared = self.prepare(run)?;
-        let Some(run) = self.kept_runs.take(number) else { return Err(CommandError::NoRun { number }) };
+        let Some(run) = self.history.take_run(number) else { return Err(CommandError::NoRun { number }) };
         self.take_up(run, prepared);
         let text = format!("returned to run {number}");
         let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
-        self.sink.note(&event);
-        self.report(event);
+        self.note(event);
         Ok(())
     }
 
@@ -131,8 +103,7 @@ impl<E: ImageSource> Worker<E> {
         let prepared = self.prepare(&run)?;
         self.take_up(run, prepared);
         let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
-        self.sink.note(&event);
-        self.report(event);
+        self.note(event);
         self.apply_case();
         self.observe();
         Ok(())
@@ -150,13 +121,12 @@ impl<E: ImageSource> Worker<E> {
 
     /// Puts a run in the place of the present one, which is kept.
     pub(super) fn take_up(&mut self, run: KeptRun, (camera, trial, sight): (E, Trial, Sight)) {
-        self.leave();
+        self.history.leave(&self.trial, self.scenery.case.as_ref());
         self.playing = None;
         self.trial = trial;
         self.camera = camera;
         self.running = false;
-        self.timeline = run.timeline;
-        self.journal = run.journal;
+        self.history.take_up(run.timeline, run.journal);
         let mut scenery = self.next_scenery(1);
         scenery.past_version += 1;
         scenery.case = run.case;
@@ -172,7 +142,7 @@ impl<E: ImageSource> Worker<E> {
             past_version: before.past_version,
             case: before.case.clone(),
             challenge: before.challenge.clone().filter(|_| self.playing.is_some()),
-            kept_runs: self.kept_runs.summaries(),
+            kept_runs: self.history.summaries(),
             ..Scenery::of(&self.trial, before.catalog.clone(), before.version + 1, before.trial + new_trials)
         }
     }
@@ -217,14 +187,13 @@ impl<E: ImageSource> Worker<E> {
         if let Some((count, error)) = left_out {
             let text = format!("test case: {count} inputs at this tick were left out; the last one because {error}");
             let event = Event::new(tick, EventKind::Session, text);
-            self.sink.note(&event);
-            self.report(event);
+            self.note(event);
         }
     }
 
     /// Inputs of the case that a state of this tick does not contain, and that have not been applied in the session.
     pub(super) fn case_inputs_after(&self, tick: u64) -> impl Iterator<Item = (u64, Input)> {
-        let newest = self.end.as_ref().map_or(self.trial.state(), |end| &end.state).world.tick;
+        let newest = self.history.newest(&self.trial).world.tick;
         let from = newest.max(tick + 1);
         let ahead = self.scenery.case.as_ref().map_or(&[][..], |case| case.inputs_from(from));
         ahead.iter().map(|timed| (timed.tick, timed.input.clone()))

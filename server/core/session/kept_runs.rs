@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::opened_case::OpenedCase;
 use super::timeline::Timeline;
-use ferry_core::scenario::{ControllerName, Scenario};
-use ferry_core::trial::{Arena, Event, TrialState};
+use crate::scenario::{ControllerName, Scenario};
+use crate::trial::{Arena, Event, TrialState};
 
 /// Limits of all kept runs together; the oldest runs are dropped.
 const MOST: usize = 8;

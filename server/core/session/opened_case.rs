@@ -1,6 +1,6 @@
 //! An opened test case: its inputs are applied at their ticks, like those of an operator.
 
-use ferry_core::trial::{Expectation, Input, Timed};
+use crate::trial::{Expectation, Input, Timed};
 
 /// The part of a case that a scenario does not contain.
 #[derive(Debug)]

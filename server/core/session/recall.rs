@@ -1,14 +1,16 @@
-//! Kept moments and test cases of the session's thread.
+//! Kept moments and test cases.
 
-use super::worker::Worker;
-use super::{BranchPoint, CommandError, Recalled};
-use crate::camera::ImageSource;
-use ferry_core::control::step_is_due;
-use ferry_core::trial::{Case, Input, Origin, Timed, TrialState};
+use super::{BranchPoint, CommandError, Recalled, Session};
+use crate::control::step_is_due;
+use crate::image::ImageSource;
+use crate::trial::{Case, Input, Origin, Timed, TrialState};
 
-impl<E: ImageSource> Worker<E> {
+impl<E: ImageSource> Session<E> {
     /// The trial as a test case, with all its inputs.
-    pub(super) fn case(&self) -> Result<Case, CommandError> {
+    ///
+    /// # Errors
+    /// [`CommandError::Forgotten`] and [`CommandError::NothingCarried`].
+    pub fn case(&self) -> Result<Case, CommandError> {
         let tick = self.trial.state().world.tick;
         let told = self.told(tick).ok_or(CommandError::Forgotten)?;
         let inputs = told.into_iter().map(|(tick, input)| Timed { tick, input }).collect();
@@ -19,11 +21,15 @@ impl<E: ImageSource> Worker<E> {
     fn told(&self, tick: u64) -> Option<Vec<(u64, Input)>> {
         let now = self.trial.state().world.tick;
         let waiting = self.trial.waiting_inputs().iter().filter(|_| tick == now).map(|input| (now, input.clone()));
-        let told = self.timeline.inputs_from_start()?;
+        let told = self.history.timeline().inputs_from_start()?;
         Some(told.into_iter().filter(|&(at, _)| at <= tick).chain(waiting).collect())
     }
 
-    pub(super) fn recall(&self, tick: u64, which: Recalled) -> Result<BranchPoint, CommandError> {
+    /// A kept moment.
+    ///
+    /// # Errors
+    /// [`CommandError::Range`].
+    pub fn recall(&self, tick: u64, which: Recalled) -> Result<BranchPoint, CommandError> {
         let is_present = tick == self.trial.state().world.tick;
         let state = match which {
             Recalled::Present if is_present => self.trial.snapshot(),
@@ -31,18 +37,18 @@ impl<E: ImageSource> Worker<E> {
             Recalled::Step if is_present && step_is_due(tick) => self.trial.snapshot(),
             _ => self.moment(tick)?.clone(),
         };
-        let mut inputs = self.timeline.inputs_after(state.world.tick);
+        let mut inputs = self.history.timeline().inputs_after(state.world.tick);
         inputs.extend(self.case_inputs_after(state.world.tick));
         let told = self.told(state.world.tick);
         let origin = Origin::at(&self.trial, state);
-        Ok(BranchPoint::new(origin, told, inputs, &self.name, self.program.clone()))
+        Ok(BranchPoint { origin, told, inputs })
     }
 
     /// The last kept state at or before a tick; `None` for a tick after the newest state.
     pub(super) fn moment(&self, tick: u64) -> Result<&TrialState, CommandError> {
-        let (first, last) = self.timeline.range().unwrap_or_default();
+        let (first, last) = self.history.range();
         let last = last.max(self.trial.state().world.tick);
-        self.timeline.at(tick).filter(|_| tick <= last).ok_or_else(|| {
+        self.history.timeline().at(tick).filter(|_| tick <= last).ok_or_else(|| {
             let allowed = format!("{first} to {last}");
             CommandError::Range { field: "tick", value: tick as f64, allowed }
         })

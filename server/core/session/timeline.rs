@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use ferry_core::trial::{Input, TrialState};
+use crate::trial::{Input, TrialState};
 
 /// Four snapshots per second for ten minutes, a few kilobytes each.
 const MOST: usize = 2400;

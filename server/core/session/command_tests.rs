@@ -1,20 +1,18 @@
 //! Random commands in random order: the arm stays within its limits, and refused commands change nothing.
 
+use std::time::Duration;
+
+use super::{ANSWER_WITHIN, Command, Kept, Opening, Session, Surroundings};
+use crate::control::limits::{LIFT_SPEED_M_S, MIN_MANIPULABILITY_M3};
+use crate::geometry::Point2;
+use crate::image::{CameraError, CameraFrame, ImageSource, Picture, Subject};
+use crate::plant::{PositionerKind, TOOL_LENGTH_M, ToolOrientation};
+use crate::robot::ur5::{JOINT_SPEED_LIMIT_RAD_S, SERVO_PERIOD_S};
+use crate::robot::{Joints, jacobian};
+use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
+use crate::trial::{Arena, Case, Catalog, Input, Nowhere, Timed};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tokio::sync::broadcast;
-
-use super::worker::Worker;
-use super::{Command, CommandError, Kept};
-use crate::camera::{CameraError, ImageSource, Subject};
-use ferry_core::control::limits::{LIFT_SPEED_M_S, MIN_MANIPULABILITY_M3};
-use ferry_core::geometry::Point2;
-use ferry_core::image::{CameraFrame, Picture};
-use ferry_core::plant::{PositionerKind, TOOL_LENGTH_M, ToolOrientation};
-use ferry_core::robot::ur5::{JOINT_SPEED_LIMIT_RAD_S, SERVO_PERIOD_S};
-use ferry_core::robot::{Joints, jacobian};
-use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
-use ferry_core::trial::{Arena, Case, Catalog, Input, Nowhere, Timed};
 
 const SIDE_PX: u32 = 480;
 /// Tolerance for rounding.
@@ -213,9 +211,9 @@ fn command(rng: &mut impl Rng, present: &Parameters, newest: u64) -> Command {
 }
 
 /// Everything that a refused command must leave unchanged.
-fn fingerprint(worker: &Worker<MadeUp>) -> (u64, u64, bool, f64, Option<(u64, u64)>, u64) {
-    let view = worker.view();
-    let state = worker.trial.state();
+fn fingerprint(session: &Session<MadeUp>) -> (u64, u64, bool, f64, Option<(u64, u64)>, u64) {
+    let view = session.view();
+    let state = session.trial.state();
     let (world, controller_state) = (state.world_hash(), state.controller_hash());
     (world, controller_state, view.running, view.speed_target, Some(view.rewind_ticks), view.scenery.version)
 }
@@ -230,11 +228,11 @@ struct Watch {
 }
 
 impl Watch {
-    fn of(worker: &Worker<MadeUp>) -> Self {
-        let world = &worker.trial.state().world;
+    fn of(session: &Session<MadeUp>) -> Self {
+        let world = &session.trial.state().world;
         let p = &world.parameters;
         Self {
-            trial: worker.scenery.trial,
+            trial: session.scenery.trial,
             tick: world.tick,
             reference_m: world.reference_m.coords.into(),
             joints_rad: world.plant.positioner.joints_rad(),
@@ -243,10 +241,10 @@ impl Watch {
     }
 
     /// Panics at the first violation.
-    fn check(&self, worker: &Worker<MadeUp>) {
-        let now = Self::of(worker);
-        let world = &worker.trial.state().world;
-        let map = &worker.trial.arena().map;
+    fn check(&self, session: &Session<MadeUp>) {
+        let now = Self::of(session);
+        let world = &session.trial.state().world;
+        let map = &session.trial.arena().map;
         let reference = world.reference_m;
         assert!(map.workspace().contains(reference.xy()), "the reference is out, at {reference}");
         let tool = world.plant.positioner.tool_m();
@@ -277,46 +275,46 @@ impl Watch {
 #[test]
 fn random_commands_keep_the_limits_and_refused_ones_change_nothing() {
     let mut rng = ChaCha8Rng::seed_from_u64(seed());
-    let arena = Arena::shipped("posts").unwrap();
-    let make_camera = Box::new(|_: &Arena| Ok(MadeUp::new()));
-    let (events, _) = broadcast::channel(1);
-    let scenario = Scenario::idle("posts", 1);
-    let sink = Box::new(Nowhere::default());
-    let mut worker = Worker::new("main", scenario, arena, Catalog::default(), make_camera, sink, events).unwrap();
+    let surroundings = Surroundings {
+        catalog: Catalog::default(),
+        make_camera: Box::new(|_: &Arena| Ok(MadeUp::new())),
+        sink: Box::new(Nowhere::default()),
+    };
+    let mut now = Duration::ZERO;
+    let (mut session, _) = Session::start(Scenario::idle("posts", 1), Opening::Fresh, surroundings, now).unwrap();
     let (mut refused, mut accepted, mut ticks) = (0u64, 0u64, 0u64);
     let mut known = None;
     for _ in 0..commands() {
-        let world = &worker.trial.state().world;
+        let world = &session.trial.state().world;
         let command = command(&mut rng, &world.parameters, world.tick);
-        let before = known.take().unwrap_or_else(|| fingerprint(&worker));
-        let watch = Watch::of(&worker);
+        let before = known.take().unwrap_or_else(|| fingerprint(&session));
+        let watch = Watch::of(&session);
         let told = format!("{command:?}");
-        match worker.obey(command) {
+        match session.apply(command, now) {
             Ok(()) => accepted += 1,
             Err(error) => {
                 refused += 1;
-                let is_of_the_channel =
-                    matches!(error, CommandError::Ended | CommandError::Busy | CommandError::Unanswered);
-                assert!(!is_of_the_channel, "{told}: {error}");
-                let after = fingerprint(&worker);
+                let after = fingerprint(&session);
                 assert!(after == before, "{told} was refused ({error}) and changed {before:?} to {after:?}");
                 known = Some(after);
             }
         }
-        while worker.stepping > 0 {
-            worker.stepping -= 1;
-            worker.tick().unwrap();
+        while session.is_stepping() {
+            // A program that is selected and missing has no answer.
+            now += ANSWER_WITHIN;
+            session.advance(now).unwrap();
         }
-        assert!(worker.broken.is_none(), "{told} broke it: {:?}", worker.broken);
-        watch.check(&worker);
-        if worker.running && rng.random_bool(0.5) {
-            let watch = Watch::of(&worker);
-            worker.tick().unwrap();
-            worker.trial.take_events();
-            watch.check(&worker);
-            ticks += 1;
+        let fault = session.take_fault();
+        assert!(fault.is_none(), "{told} broke it: {fault:?}");
+        watch.check(&session);
+        if session.is_running() && rng.random_bool(0.5) {
+            let watch = Watch::of(&session);
+            now += Duration::from_secs(1);
+            ticks += u64::from(session.advance(now).unwrap());
+            watch.check(&session);
             known = None;
         }
+        session.take_messages();
     }
     println!("{accepted} accepted, {refused} refused, {ticks} ticks beside those of steps");
     assert!(accepted > commands() / 4 && refused > commands() / 10 && ticks > commands() / 10);

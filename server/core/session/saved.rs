@@ -2,25 +2,19 @@
 //! an input log without ticks.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::sync::Arc;
 
-use super::Opening;
 use super::kept_runs::KeptRun;
 use super::timeline::Timeline;
-use super::worker::Worker;
-use crate::camera::ImageSource;
-use crate::faults;
-use crate::open;
-use ferry_core::map::{Library, Map};
-use ferry_core::scenario::Scenario;
-use ferry_core::trial::{
-    Arena, Beginning, Entry, Event, EventKind, LogError, LogWriter, LoggedBeginning, LoggedMap, Trial, TrialError,
-    TrialState,
+use super::{Opening, Resumed, Session};
+use crate::image::ImageSource;
+use crate::map::{Library, Map};
+use crate::panics;
+use crate::scenario::Scenario;
+use crate::trial::{
+    Arena, Beginning, Entry, Event, EventKind, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, Trial,
+    TrialError, TrialState,
 };
-
-/// Ten runs, each with a map of at most a few megabytes.
-const BYTES_MOST: u64 = 64 << 20;
 
 /// Why a saved trial was left out.
 #[derive(Debug, thiserror::Error)]
@@ -47,15 +41,13 @@ impl Saved {
         Ok(bytes)
     }
 
-    /// # Errors
-    /// The file cannot be read, or it is not a saved session of this version.
-    pub fn open(path: &Path) -> Result<Self, LogError> {
-        let entries = open::log_at_most(path, BYTES_MOST)?.entries;
-        let runs = entries.into_iter().filter_map(|entry| match entry {
+    /// The saved session of a log.
+    pub fn of(log: InputLog) -> Self {
+        let runs = log.entries.into_iter().filter_map(|entry| match entry {
             Entry::Begin(run) => Some(*run),
             Entry::Tick(_) => None,
         });
-        Ok(Self(runs.collect()))
+        Self(runs.collect())
     }
 }
 
@@ -69,62 +61,60 @@ struct Restored {
     errors: Vec<RestoreError>,
 }
 
-impl<E: ImageSource> Worker<E> {
-    pub(super) fn saved(&self) -> Saved {
+impl<E: ImageSource> Session<E> {
+    /// What a later server needs to go on.
+    pub fn saved(&self) -> Saved {
         let logged = |scenario: &Scenario, arena: &Arena, state: &TrialState| LoggedBeginning {
             scenario: scenario.clone(),
             map: Some(LoggedMap::from(&arena.map)),
             policy_hash: None,
             state: Some(Box::new(state.clone())),
         };
-        let runs = self.kept_runs.iter().map(|run| logged(&run.scenario, &run.arena, &run.state));
+        let runs = self.history.kept_runs().iter().map(|run| logged(&run.scenario, &run.arena, &run.state));
         let own = |state| logged(self.trial.scenario(), self.trial.arena(), state);
         let present = self.trial.state();
         // After a rewind the end is not yet a kept run.
-        let end = self.end.as_ref().map(|end| &end.state).filter(|end| end.world.tick > present.world.tick);
+        let end = Some(self.history.newest(&self.trial)).filter(|end| end.world.tick > present.world.tick);
         Saved(runs.chain(end.map(own)).chain([own(present)]).collect())
     }
 
     /// Goes on from what was saved, or keeps it as runs beside the chosen opening. What cannot be restored is reported
     /// and left out; without its trial the session starts over.
-    pub(super) fn begin(&mut self, opening: Opening) {
+    pub(super) fn begin(&mut self, opening: Opening) -> Resumed {
         let (restored, goes_on) = match opening {
             Opening::Fresh => {
                 self.sink.begin(&self.trial, Beginning::SetUp);
-                return;
+                return Resumed::default();
             }
             Opening::Saved(saved) => (self.restore(saved), true),
             Opening::Beside(saved) => (self.restore(saved), false),
             Opening::Unreadable(error) => (Restored { errors: vec![error.into()], ..Restored::default() }, true),
         };
         let Restored { mut runs, present, mut errors } = restored;
-        let mut went_on = false;
+        let mut tick = None;
         match present {
             Some(run) if goes_on => match caught(|| self.prepare(&run)) {
                 Ok(prepared) => {
                     self.keep(std::mem::take(&mut runs));
-                    self.resumed_tick = Some(run.state.world.tick);
+                    tick = Some(run.state.world.tick);
                     self.take_up(run, prepared);
-                    went_on = true;
                 }
                 Err(error) => errors.push(error),
             },
             run => runs.extend(run),
         }
-        if !went_on {
+        if tick.is_none() {
             self.sink.begin(&self.trial, Beginning::SetUp);
             self.keep(runs);
         }
-        let how = match went_on {
+        let how = match tick.is_some() {
             true => "the session goes on from its last saved state",
             false if goes_on => "the session started over",
             false => "the session started over; what was saved is kept as runs",
         };
-        self.has_left_out = !errors.is_empty();
         let text = match errors.first() {
             None => how.to_owned(),
             Some(first) => {
-                tracing::warn!(count = errors.len(), error = %first, "saved trials left out");
                 let count = match errors.len() {
                     1 => "a saved trial".to_owned(),
                     count => format!("{count} saved trials"),
@@ -133,12 +123,12 @@ impl<E: ImageSource> Worker<E> {
             }
         };
         let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
-        self.sink.note(&event);
-        self.report(event);
+        self.note(event);
+        Resumed { tick, has_left_out: !errors.is_empty() }
     }
 
     fn keep(&mut self, runs: Vec<KeptRun>) {
-        runs.into_iter().for_each(|run| self.kept_runs.keep(run));
+        runs.into_iter().for_each(|run| self.history.keep_run(run));
         self.scenery = self.next_scenery(0).into();
     }
 
@@ -183,7 +173,7 @@ impl<E: ImageSource> Worker<E> {
 /// A state of another version may be one that the code does not expect.
 fn caught<T>(work: impl FnOnce() -> Result<T, TrialError>) -> Result<T, RestoreError> {
     catch_unwind(AssertUnwindSafe(work))
-        .map_err(|panic| RestoreError::Panic(faults::words(&*panic)))?
+        .map_err(|panic| RestoreError::Panic(panics::message(&*panic)))?
         .map_err(RestoreError::from)
 }
 

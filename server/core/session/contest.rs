@@ -1,23 +1,22 @@
-//! Challenges in the session's thread: an attempt counts while it runs without interruption, at real speed, steered only.
+//! Challenges in a session: an attempt counts while it runs without interruption, at real speed, steered only.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::Duration;
 
 use super::playing::{Ended, Played, Playing, Void};
-use super::worker::Worker;
-use super::{CommandError, Scenery};
-use crate::camera::ImageSource;
-use ferry_core::challenge::{Attempt, Challenge, ChallengeName, Referee, TICKS_MOST};
-use ferry_core::trial::{Case, TickRecord, Timed};
+use super::{CommandError, Scenery, Session};
+use crate::challenge::{Attempt, Challenge, ChallengeName, Referee, TICKS_MOST};
+use crate::image::ImageSource;
+use crate::trial::{Case, TickRecord, Timed};
 
-impl<E: ImageSource> Worker<E> {
-    pub(super) fn play(&mut self, name: ChallengeName) -> Result<(), CommandError> {
+impl<E: ImageSource> Session<E> {
+    pub(super) fn play(&mut self, name: ChallengeName, now: Duration) -> Result<(), CommandError> {
         let challenge = match &self.playing {
             Some(playing) if playing.challenge.name == name => playing.challenge.clone(),
             _ => Arc::new(Challenge::of(name)?),
         };
         self.replace(challenge.scenario.clone(), challenge.arena.clone(), None)?;
-        self.pace.set_factor(1.0, Instant::now());
+        self.pace.set_factor(1.0, now);
         self.playing =
             Some(Playing { challenge: challenge.clone(), referee: Referee::default(), ended: None, void: None });
         self.scenery = Arc::new(Scenery { challenge: Some(challenge), ..self.next_scenery(0) });
@@ -45,7 +44,7 @@ impl<E: ImageSource> Worker<E> {
         let score = playing.referee.watch(record);
         let ended = match score {
             Some(score) => {
-                let told = self.timeline.inputs_from_start().unwrap_or_default();
+                let told = self.history.timeline().inputs_from_start().unwrap_or_default();
                 let inputs = told.into_iter().map(|(tick, input)| Timed { tick, input }).collect();
                 let scenario = playing.challenge.scenario.clone();
                 let log = Case { about: String::new(), scenario, map: None, inputs, expect: None };
@@ -60,7 +59,11 @@ impl<E: ImageSource> Worker<E> {
         self.stepping = 0;
     }
 
-    pub(super) fn played(&self) -> Result<Played, CommandError> {
+    /// The attempt at the challenge that is being played.
+    ///
+    /// # Errors
+    /// [`CommandError::NoChallenge`].
+    pub fn played(&self) -> Result<Played, CommandError> {
         let Playing { challenge, referee, ended, void } = self.playing.clone().ok_or(CommandError::NoChallenge)?;
         Ok(Played { challenge, trace: referee.into_trace(), ended, void })
     }

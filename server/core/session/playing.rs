@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ferry_core::challenge::{Attempt, Challenge, Referee, Score, TICKS_MOST, Trace};
+use crate::challenge::{Attempt, Challenge, Referee, Score, TICKS_MOST, Trace};
 
 /// Why an attempt does not count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

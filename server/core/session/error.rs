@@ -1,0 +1,94 @@
+//! Why a session refuses a command.
+
+use crate::challenge::ChallengeError;
+use crate::map::MapError;
+use crate::trial::{CaseError, InputError, TrialError};
+
+/// Why a command was refused; the session is unchanged.
+#[derive(Debug, thiserror::Error)]
+pub enum CommandError {
+    /// The trial refused the input.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The map is invalid or unknown.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// The text is not a test case.
+    #[error("test case: {0}")]
+    Case(#[from] CaseError),
+    /// The drawing in a test case is not that of the map.
+    #[error(
+        "map.name is {name:?}: this server has another drawing of that name; give the map in the file another name"
+    )]
+    OtherDrawing { name: String },
+    /// The trial could not be created.
+    #[error(transparent)]
+    Trial(#[from] TrialError),
+    /// Out of range.
+    #[error("{field} is {value}, it must be {allowed}")]
+    Range {
+        field: &'static str,
+        value: f64,
+        /// The allowed range.
+        allowed: String,
+    },
+    /// The start of the trial is no longer kept.
+    #[error("the start of the trial is no longer kept; reset, and save a case within ten minutes")]
+    Forgotten,
+    /// The challenge could not be drawn.
+    #[error(transparent)]
+    Challenge(#[from] ChallengeError),
+    /// No challenge is being played.
+    #[error("no challenge is being played in this session")]
+    NoChallenge,
+    /// No kept run has this number.
+    #[error("run is {number}, there is no kept run of this number")]
+    NoRun { number: u32 },
+    /// A test case would have nothing to expect.
+    #[error("tick {tick}: nothing was carried yet, so the case would expect nothing; run the session first")]
+    NothingCarried {
+        /// The tick of the session.
+        tick: u64,
+    },
+}
+
+impl CommandError {
+    /// One word for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Input(error) | Self::Trial(TrialError::Input(error)) => error.code(),
+            Self::Map(_) | Self::Challenge(_) | Self::Trial(TrialError::Map(_) | TrialError::Random(_)) => {
+                "map_refused"
+            }
+            Self::Trial(TrialError::Policy(_)) => "unknown_policy",
+            Self::Trial(TrialError::Parameter(_)) => "parameter_out_of_range",
+            Self::Trial(TrialError::Script { .. } | TrialError::LongScript { .. }) => "bad_script",
+            Self::Trial(_) => "trial_failed",
+            Self::Case(_) => "bad_case",
+            Self::OtherDrawing { .. } => "other_drawing",
+            Self::Range { .. } => "out_of_range",
+            Self::NoChallenge => "no_challenge",
+            Self::NoRun { .. } => "no_run",
+            Self::NothingCarried { .. } => "nothing_carried",
+            Self::Forgotten => "forgotten",
+        }
+    }
+
+    /// The field of the command that it is about.
+    pub fn field(&self) -> Option<&str> {
+        match self {
+            Self::Input(error) | Self::Trial(TrialError::Input(error)) => Some(error.field()),
+            Self::Map(_) | Self::Trial(TrialError::Map(_) | TrialError::Random(_)) => Some("map"),
+            Self::Challenge(_) => Some("challenge"),
+            Self::Trial(TrialError::Policy(_)) => Some("rl_policy"),
+            Self::Trial(TrialError::Parameter(error)) => Some(error.field),
+            Self::Trial(TrialError::Script { .. } | TrialError::LongScript { .. }) => Some("script"),
+            Self::Case(error) => Some(error.field()).filter(|field| !field.is_empty()),
+            Self::OtherDrawing { .. } => Some("map.name"),
+            Self::Range { field, .. } => Some(field),
+            Self::NoRun { .. } => Some("run"),
+            Self::NothingCarried { .. } => Some("tick"),
+            Self::Trial(_) | Self::NoChallenge | Self::Forgotten => None,
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! Whole sessions without a thread or a clock: the test says what time it is.
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use super::{
+    ANSWER_WITHIN, Command, CommandError, Ended, Message, Opening, Recalled, Saved, Session, Surroundings, View, Void,
+};
+use crate::control::transport::program::Answer;
+use crate::geometry::Point2;
+use crate::image::EmptyFloor;
+use crate::scenario::{ControllerName, Scenario};
+use crate::trial::{Arena, Catalog, ControlQuery, Event, Input, InputLog, Nowhere, Source, TrialError};
+
+const TICK: Duration = Duration::from_millis(8);
+
+struct Bench {
+    session: Session<EmptyFloor>,
+    now: Duration,
+    events: Vec<Event>,
+    /// Questions and missing answers, oldest first.
+    others: Vec<Message>,
+}
+
+impl Bench {
+    fn new(scenario: Scenario, opening: Opening) -> Self {
+        let surroundings = Surroundings {
+            catalog: Catalog::default(),
+            make_camera: Box::new(|_: &Arena| Ok(EmptyFloor::default())),
+            sink: Box::new(Nowhere::default()),
+        };
+        let (session, _) = Session::start(scenario, opening, surroundings, Duration::ZERO).unwrap();
+        let mut bench = Self { session, now: Duration::ZERO, events: Vec::new(), others: Vec::new() };
+        bench.listen();
+        bench
+    }
+
+    fn listen(&mut self) {
+        for message in self.session.take_messages() {
+            match message {
+                Message::Event(event) => self.events.push(event),
+                other => self.others.push(other),
+            }
+        }
+    }
+
+    fn send(&mut self, command: Command) -> Result<View, CommandError> {
+        let done = self.session.apply(command, self.now);
+        self.listen();
+        done.map(|()| self.session.view())
+    }
+
+    fn input(&mut self, input: Input) {
+        self.send(Command::Input(input)).unwrap();
+    }
+
+    /// One tick of real time.
+    fn pass(&mut self) -> bool {
+        self.now += TICK;
+        let has_ticked = self.session.advance(self.now).unwrap();
+        self.listen();
+        has_ticked
+    }
+
+    fn run_until(&mut self, what: &str, mut reached: impl FnMut(&View) -> bool) -> View {
+        for _ in 0..20_000 {
+            let view = self.session.view();
+            if reached(&view) {
+                return view;
+            }
+            self.pass();
+        }
+        panic!("{what} does not come: {:?}", self.session.view().moment);
+    }
+
+    fn run_until_asked(&mut self) -> View {
+        while self.pass() {}
+        assert!(self.session.asks(), "the session has stopped");
+        self.session.view()
+    }
+
+    fn said(&self, part: &str) -> bool {
+        self.events.iter().any(|event| event.text.contains(part))
+    }
+}
+
+fn open_floor(controller: ControllerName) -> Bench {
+    let start_m = Some(Point2::new(0.0, -0.35));
+    Bench::new(Scenario { controller, start_m, ..Scenario::idle("open", 1) }, Opening::Fresh)
+}
+
+fn goal(x_m: f64) -> Input {
+    Input::SetGoal { x_m, y_m: -0.35 }
+}
+
+#[test]
+fn goal_drag_rewind_compare_and_return() {
+    let mut bench = open_floor(ControllerName::Attractor);
+    assert!(!bench.pass(), "it begins paused");
+    bench.input(goal(0.1));
+    bench.send(Command::Run).unwrap();
+    bench.run_until("motion", |view| view.moment.tick == 250);
+    // The hand pulls the bead away: sub-controller 1 fetches it.
+    bench.input(Input::Drag { x_m: -0.15, y_m: -0.35, lift: true });
+    bench.run_until("the pull", |view| view.moment.bead_m.x < -0.1);
+    bench.input(Input::Release);
+    let delivered = bench.run_until("the delivery", |view| view.moment.counters.deliveries == 1);
+    assert!(delivered.moment.counters.switches >= 2, "{:?}", delivered.moment.counters);
+    assert!(bench.said("delivered"), "{:?}", bench.events);
+
+    // Rewound to before the drag, other controllers run beside the session, and the same one repeats what happened.
+    let rewound = bench.send(Command::Rewind(240)).unwrap();
+    assert!(!rewound.running && rewound.moment.tick <= 240 && rewound.moment.counters.deliveries == 0);
+    let point = bench.session.recall(rewound.moment.tick, Recalled::Present).unwrap();
+    assert!(point.has_goal());
+    let mut ends = Vec::new();
+    for controller in [ControllerName::Attractor, ControllerName::Errt] {
+        let mut camera = EmptyFloor::default();
+        let mut advance = |trial: &mut crate::trial::Trial| trial.tick(Source::Camera(&mut camera));
+        let mut watch = |progress: super::Progress<'_>| {
+            if progress.done {
+                ends.push((progress.delivered_tick, progress.record.moment.counters.switches));
+            }
+            ControlFlow::Continue(())
+        };
+        point.branch::<TrialError>(controller, &mut advance, &mut watch).unwrap();
+    }
+    assert_eq!(ends[0], (Some(delivered.moment.tick), delivered.moment.counters.switches));
+    assert!(ends[1].0.is_some());
+    assert_eq!(bench.session.view().world_hash, rewound.world_hash, "a branch leaves the session as it is");
+
+    // What the rewind has left behind is kept as soon as the session goes on, and the operator can return to it.
+    bench.send(Command::Run).unwrap();
+    bench.run_until("another second", |view| view.moment.tick > 375);
+    let kept = bench.session.view().scenery.kept_runs.clone();
+    assert_eq!(kept.iter().map(|run| (run.number, run.deliveries)).collect::<Vec<_>>(), [(1, 1)]);
+    let returned = bench.send(Command::Return(1)).unwrap();
+    assert_eq!((returned.world_hash, returned.running), (delivered.world_hash, false));
+    assert!(matches!(bench.send(Command::Return(9)), Err(CommandError::NoRun { number: 9 })));
+
+    // It is saved, and goes on elsewhere.
+    let log = InputLog::read(&bench.session.saved().to_bytes().unwrap()).unwrap();
+    let again = Bench::new(Scenario::idle("posts", 1), Opening::Saved(Saved::of(log)));
+    assert_eq!(again.session.view().world_hash, delivered.world_hash);
+    assert!(again.said("the session goes on"), "{:?}", again.events);
+}
+
+/// The question that was asked last.
+fn asked(bench: &Bench) -> (u64, &ControlQuery) {
+    match bench.others.last() {
+        Some(Message::Ask { number, query }) => (*number, query),
+        other => panic!("no question was asked last: {other:?}"),
+    }
+}
+
+#[test]
+fn a_program_is_asked_and_its_silence_holds_the_arm() {
+    let mut bench = open_floor(ControllerName::Attractor);
+    bench.input(goal(0.1));
+    bench.send(Command::Attach("mine".to_owned())).unwrap();
+    bench.send(Command::Run).unwrap();
+    assert!(!bench.pass() && bench.session.asks(), "the first control step waits for an answer");
+    let (number, query) = asked(&bench);
+    assert_eq!((query.question.tick, query.leg.map.as_str()), (0, "open"));
+    let target_m = query.question.tool_m + crate::geometry::Vector2::new(0.01, 0.0);
+    assert!(bench.session.awaits(number) && !bench.session.awaits(number + 1));
+    bench.session.answer(number + 1, Answer::Hold { reason: "not asked".to_owned() });
+    assert!(!bench.pass());
+    bench.session.answer(number, Answer::Go { target_m });
+    let moved = bench.run_until_asked();
+    assert!(moved.moment.tool_m.x > 0.005, "{:?}", moved.moment);
+    assert_eq!(moved.moment.refusal, None);
+
+    // No answer: the arm holds after a tenth of a second, and a late answer is dropped.
+    let before = bench.now;
+    let (number, _) = asked(&bench);
+    let held = bench.run_until("the hold", |view| view.moment.tick > moved.moment.tick);
+    assert!(bench.now - before >= ANSWER_WITHIN);
+    assert_eq!(held.moment.refusal.as_deref(), Some("the program: mine gave no answer within 100 ms"));
+    assert!(matches!(bench.others.last(), Some(Message::Unanswered { number: missed }) if *missed == number));
+    bench.session.answer(number, Answer::Go { target_m });
+    assert!(!bench.session.asks());
+
+    // A pause takes the question back; the session asks again when it goes on.
+    bench.run_until_asked();
+    let (number, _) = asked(&bench);
+    bench.send(Command::Pause).unwrap();
+    assert!(!bench.session.awaits(number));
+    bench.send(Command::Run).unwrap();
+    bench.pass();
+    assert_eq!(asked(&bench).0, number + 1);
+}
+
+#[test]
+fn a_robot_leads_the_arm_within_the_limits() {
+    let mut bench = open_floor(ControllerName::Robot);
+    bench.send(Command::Run).unwrap();
+    let mut joints_rad = bench.session.trial().state().world.plant.positioner.joints_rad().unwrap();
+    let first_rad = joints_rad[0];
+    for _ in 0..50 {
+        joints_rad[0] += 1e-3;
+        bench.session.follow(Input::Servo { joints_rad }).unwrap();
+        assert!(bench.pass());
+    }
+    let turned_rad = bench.session.trial().state().world.plant.positioner.joints_rad().unwrap()[0] - first_rad;
+    assert!((turned_rad - 0.05).abs() < 5e-3, "{turned_rad}");
+    let hash = bench.session.view().world_hash;
+    joints_rad[0] += 1.0;
+    let refused = bench.session.follow(Input::Servo { joints_rad });
+    assert!(refused.is_err(), "a jump violates the limits");
+    assert_eq!(bench.session.view().world_hash, hash);
+}
+
+#[test]
+fn an_attempt_that_ends_in_a_step_ends_the_step() {
+    let mut bench = open_floor(ControllerName::Attractor);
+    bench.send(Command::Play("easy-2026-11-26".parse().unwrap())).unwrap();
+    bench.send(Command::Step(super::STEP_MAX)).unwrap();
+    while bench.session.is_stepping() {
+        bench.session.advance(bench.now).unwrap();
+    }
+    let played = bench.session.played().unwrap();
+    assert!(matches!(played.ended, Some(Ended::TimeUp)), "{:?}", played.ended);
+    assert_eq!(played.void, Some(Void::Paused));
+    let tick = bench.session.view().moment.tick;
+    assert_eq!(tick, crate::challenge::TICKS_MOST, "the session pauses at the end of the attempt");
+    assert!(!bench.pass());
+}
+
+#[test]
+fn the_pace_is_that_of_the_time_that_is_told() {
+    let mut bench = open_floor(ControllerName::Attractor);
+    bench.send(Command::SetSpeed(2.0)).unwrap();
+    bench.send(Command::Run).unwrap();
+    assert_eq!(bench.session.wait(bench.now), Some(Duration::ZERO));
+    let mut ticks = 0;
+    for _ in 0..125 {
+        bench.now += TICK;
+        while bench.session.advance(bench.now).unwrap() {
+            ticks += 1;
+        }
+    }
+    assert!((250..=252).contains(&ticks), "{ticks} ticks in a second at twice the speed");
+    let view = bench.send(Command::Pause).unwrap();
+    assert_eq!((view.running, view.moment.tick), (false, ticks));
+    assert_eq!(bench.session.wait(bench.now), None);
+}
