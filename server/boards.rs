@@ -9,8 +9,8 @@ use icu_properties::{CodePointMapData, CodePointSetData};
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::files::{read_at_most, replace};
 use ferry_core::challenge::{Attempt, ChallengeName, Run, Score, Trace};
+use ferry_files::{read_at_most, replace};
 
 /// Entries of a board; a better one takes the place of the last.
 const ENTRIES_MOST: usize = 100;

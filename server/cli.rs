@@ -30,8 +30,8 @@ use clap::{Parser, Subcommand};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::camera::{AdapterChoice, CameraError, Gpu};
 use crate::http::EmbeddedFile;
+use ferry_camera::{AdapterChoice, CameraError, Gpu};
 
 /// A browser laboratory: a robot arm carries a magnetic bead through a maze.
 #[derive(Parser)]
@@ -201,8 +201,8 @@ fn with_changes<T: Serialize + DeserializeOwned>(value: &T, changes: &[String]) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learn::Recipe;
     use ferry_core::policy::{Architecture, Fusion};
+    use ferry_lab::learn::Recipe;
 
     fn changed(changes: &[&str]) -> anyhow::Result<Recipe> {
         let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();

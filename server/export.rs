@@ -13,7 +13,7 @@ pub use urdf::urdf;
 
 use nalgebra::{Rotation3, Translation3, UnitQuaternion};
 
-use crate::camera::robot::{BLOCK_COLOR, Material, RobotSolid, solids};
+use ferry_camera::robot::{BLOCK_COLOR, Material, RobotSolid, solids};
 use ferry_core::geometry::{Isometry3, Vector3};
 use ferry_core::plant::{Plant, Positioner, TOOL_LENGTH_M};
 use ferry_core::robot::{forward, ur5};

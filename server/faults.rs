@@ -1,19 +1,34 @@
-//! Injected faults: a point in the code fails on the thread that a test has chosen.
+//! Injected faults: a session's thread fails at its next tick when a test wants it.
 
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
-/// Threads, and the points at which they fail. Shared by all tests.
-static ARMED: Mutex<Vec<(String, &str)>> = Mutex::new(Vec::new());
-
-/// Makes the thread with this name fail once, when it reaches the point.
-pub fn arm(thread: &str, point: &'static str) {
-    ARMED.lock().unwrap_or_else(PoisonError::into_inner).push((thread.to_owned(), point));
+#[derive(Clone, Copy, Debug)]
+pub enum Fault {
+    Panic,
+    /// Longer than anything waits for a session.
+    Hang,
 }
 
-/// Whether this thread fails here now.
-pub fn strikes(point: &str) -> bool {
-    let mut armed = ARMED.lock().unwrap_or_else(PoisonError::into_inner);
+/// Names of threads, and how they fail. Shared by all tests.
+static ARMED: Mutex<Vec<(String, Fault)>> = Mutex::new(Vec::new());
+
+/// Makes the thread of this session fail once.
+pub fn arm(session: &str, fault: Fault) {
+    ARMED.lock().unwrap_or_else(PoisonError::into_inner).push((format!("session {session}"), fault));
+}
+
+/// Fails here, if a test wants it.
+pub fn strike() {
     let here = std::thread::current();
-    let found = armed.iter().position(|(thread, at)| here.name() == Some(thread) && *at == point);
-    found.map(|index| armed.swap_remove(index)).is_some()
+    let fault = {
+        let mut armed = ARMED.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = armed.iter().position(|(thread, _)| here.name() == Some(thread));
+        found.map(|index| armed.swap_remove(index).1)
+    };
+    match fault {
+        None => {}
+        Some(Fault::Panic) => panic!("injected panic"),
+        Some(Fault::Hang) => std::thread::sleep(Duration::from_secs(14)),
+    }
 }

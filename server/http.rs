@@ -31,15 +31,15 @@ use tokio::net::TcpListener;
 use tokio::sync::{Semaphore, watch};
 use tokio_util::task::TaskTracker;
 
-use crate::camera::Gpu;
-use crate::evaluate::Evaluations;
-use crate::jobs::Queue;
-use crate::learn::{Library, Trainings};
-use crate::recording::{Archive, Retention};
-use crate::recovery::Recoveries;
-use crate::ur::{Robot, Twin};
+use ferry_camera::Gpu;
 use ferry_core::scenario::Scenario;
 use ferry_core::trial::{Catalog, TrialError};
+use ferry_lab::evaluate::Evaluations;
+use ferry_lab::jobs::Queue;
+use ferry_lab::learn::{Library, Trainings};
+use ferry_lab::recovery::Recoveries;
+use ferry_recording::{Archive, Retention};
+use ferry_ur::{Robot, Twin};
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 pub use assets::{EmbeddedFile, Page};

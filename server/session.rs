@@ -20,12 +20,12 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::{broadcast, oneshot, watch};
 
-use crate::camera::{Camera, Gpu};
-use crate::program::Program;
-use crate::ur::{Robot, Standing as RobotStanding, Twin, TwinStanding};
+use ferry_camera::{Camera, Gpu};
 use ferry_core::scenario::Scenario;
 use ferry_core::session::{Command, Opening, Played, Recalled, Resumed, Saved, Session, Surroundings};
 use ferry_core::trial::{Arena, Case, Catalog, Event, Sink, TrialError};
+use ferry_lab::program::Program;
+use ferry_ur::{Robot, Standing as RobotStanding, Twin, TwinStanding};
 
 pub use branch_point::BranchPoint;
 pub use error::CommandError;

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use ferry::boards::{Boards, Signature};
-use ferry::camera::Camera;
+use ferry_camera::Camera;
 use ferry_core::challenge::{Attempt, Challenge, Run};
 use ferry_core::geometry::Point2;
 use ferry_core::trial::{Case, Input, Source, Timed, Trial};

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use ferry::camera::Camera;
-use ferry::open;
+use ferry_camera::Camera;
 use ferry_core::trial::{Arena, Case};
+use ferry_files::open;
 use serde_json::{Value, json};
 
 use crate::support::{Browser, Laboratory, ferry, gpu};

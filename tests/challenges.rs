@@ -1,6 +1,6 @@
 //! Challenges over HTTP and the WebSocket: an attempt is played in real time, judged, and put on the board.
 
-use ferry::camera::Camera;
+use ferry_camera::Camera;
 use ferry_core::challenge::Challenge;
 use ferry_core::geometry::Point2;
 use ferry_core::scenario::ControllerName;

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use ferry::camera::{Camera, CameraError, ImageSource, Subject};
+use ferry_camera::{Camera, CameraError, ImageSource, Subject};
 use ferry_core::geometry::Point2;
 use ferry_core::image::CameraFrame;
 use ferry_core::plant::{BeadMotion, PositionerKind, ToolOrientation};

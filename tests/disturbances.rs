@@ -1,6 +1,6 @@
 //! Scripted disturbances: kicks, pushes, displacements, dropouts; and trials without an arm.
 
-use ferry::camera::Camera;
+use ferry_camera::Camera;
 use ferry_core::geometry::Point2;
 use ferry_core::plant::PositionerKind;
 use ferry_core::scenario::{Disturbance, Parameters, Scenario, Scripted, When};

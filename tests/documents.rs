@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use ferry::evaluate::{Cell, PaperRow};
 use ferry_core::map::{Map, MazeFamily};
 use ferry_core::plant::BEAD_RADIUS_M;
 use ferry_core::scenario::ControllerName;
+use ferry_lab::evaluate::{Cell, PaperRow};
 use serde_json::Value;
 
 use crate::support::ferry;

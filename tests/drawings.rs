@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use ferry::open;
 use ferry_core::map::{Map, MapError};
+use ferry_files::open;
 
 const FOLDER: &str = "tests/drawings";
 

@@ -3,11 +3,11 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use ferry::camera::Camera;
-use ferry::evaluate::{Episode, Trace, Venue, episode};
+use ferry_camera::Camera;
 use ferry_core::map::Map;
 use ferry_core::scenario::{AttractorLaw, ControllerName, Parameters, Scenario, Shipped};
 use ferry_core::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
+use ferry_lab::evaluate::{Episode, Trace, Venue, episode};
 
 use crate::support::gpu;
 

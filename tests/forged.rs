@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use ciborium::Value;
-use ferry::recording::{Archive, Options, Recorder, Retention};
 use ferry::session::SessionHandle;
 use ferry_core::scenario::{ControllerName, Scenario};
 use ferry_core::session::{Command, Opening};
 use ferry_core::trial::{Catalog, Entry, Input, InputLog};
+use ferry_recording::{Archive, Options, Recorder, Retention};
 use flate2::{Compression, write::DeflateEncoder};
 use rayon::prelude::*;
 use xxhash_rust::xxh3::xxh3_64_with_seed;

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ferry::camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
+use ferry_camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
 use ferry_core::geometry::{Point2, Point3};
 use ferry_core::image::{CameraMount, Picture};
 use ferry_core::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrientation, WallMotion};

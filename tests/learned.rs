@@ -2,14 +2,14 @@
 
 use std::sync::atomic::AtomicBool;
 
-use ferry::camera::Camera;
-use ferry::evaluate::{Cell, Experiment, Manner, Venue, Watch, run, unrecorded};
-use ferry::open;
+use ferry_camera::Camera;
 use ferry_core::map::Map;
 use ferry_core::perception::{Observation, Percept};
 use ferry_core::policy::Policy;
 use ferry_core::scenario::{ControllerName, Parameters, RlPolicy, Scenario};
 use ferry_core::trial::{Arena, Trial};
+use ferry_files::open;
+use ferry_lab::evaluate::{Cell, Experiment, Manner, Venue, Watch, run, unrecorded};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use ferry::recording::{Archive, Options, Recorder, Retention};
 use ferry::session::SessionHandle;
 use ferry_core::plant::{BeadMotion, PositionerKind};
 use ferry_core::robot::Joints;
 use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario};
 use ferry_core::session::{Command, Kept, Opening};
 use ferry_core::trial::{Catalog, Input, InputLog, LogError, Replayed, replay};
+use ferry_recording::{Archive, Options, Recorder, Retention};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

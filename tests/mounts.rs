@@ -2,14 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use ferry::camera::Camera;
-use ferry::evaluate::{Venue, episode};
+use ferry_camera::Camera;
 use ferry_core::control::Refusal;
 use ferry_core::geometry::{Point2, Vector2};
 use ferry_core::map::FreeSpace;
 use ferry_core::perception::{CellState, ObstacleMap, Percept, wall_spread};
 use ferry_core::scenario::{CLEARANCE_M, ControllerName, Parameters, Scenario};
 use ferry_core::trial::{Arena, Nowhere, Source, Trial};
+use ferry_lab::evaluate::{Venue, episode};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ferry::camera::{Camera, ImageSource};
+use ferry_camera::{Camera, ImageSource};
 use ferry_core::geometry::Point2;
 use ferry_core::policy::Shipped;
 use ferry_core::scenario::{ControllerName, Scenario};

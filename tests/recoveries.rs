@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use ferry::camera::Camera;
-use ferry::open;
+use ferry_camera::Camera;
 use ferry_core::trial::{Case, CaseOutcome};
+use ferry_files::open;
 
 use crate::support::{Browser, Laboratory, ferry, files, gpu};
 

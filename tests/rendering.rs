@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use ferry::camera::{AdapterChoice, Camera, Gpu, StaticScene, Subject, VIEW_PX};
+use ferry_camera::{AdapterChoice, Camera, Gpu, StaticScene, Subject, VIEW_PX};
 use ferry_core::geometry::{Point2, Point3, Polygon, Rect, Vector2};
 use ferry_core::image::{CameraFrame, CameraMount};
 use ferry_core::map::{Map, WALL_HEIGHT_M};

@@ -1,6 +1,6 @@
 //! Camera images and layers, as a browser receives them.
 
-use ferry::camera::{AdapterChoice, Gpu};
+use ferry_camera::{AdapterChoice, Gpu};
 use serde_json::{Value, json};
 
 use crate::support::Laboratory;

@@ -8,7 +8,7 @@ mod recordings;
 
 use std::sync::{Arc, OnceLock};
 
-use ferry::camera::{AdapterChoice, Gpu};
+use ferry_camera::{AdapterChoice, Gpu};
 
 pub use browser::Browser;
 pub use child::{Ferry, ended_at_once, ferry, memory_mb, refused_at_once};

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use ferry::camera::Camera;
-use ferry::learn::MazeLattice;
+use ferry_camera::Camera;
 use ferry_core::control::transport::rl::Rl;
 use ferry_core::control::transport::{Transport, TransportInput};
 use ferry_core::geometry::Point2;
@@ -12,6 +11,7 @@ use ferry_core::perception::{Area, ObstacleMap, Percept, wall_spread};
 use ferry_core::policy::{Policy, Survey};
 use ferry_core::scenario::{Parameters, Scenario};
 use ferry_core::trial::{Arena, Trial};
+use ferry_lab::learn::MazeLattice;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use ferry::camera::Camera;
-use ferry::evaluate::{Venue, episode};
+use ferry_camera::Camera;
 use ferry_core::control::Refusal;
 use ferry_core::control::switching::Mode;
 use ferry_core::geometry::Point2;
 use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
 use ferry_core::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
+use ferry_lab::evaluate::{Venue, episode};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

@@ -5,17 +5,17 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
-use ferry::camera::Gpu;
-use ferry::evaluate::{
+use ferry::protocol::{Conversation, Outgoing};
+use ferry_camera::Gpu;
+use ferry_core::scenario::{ControllerName, Parameters};
+use ferry_files::open;
+use ferry_lab::evaluate::{
     self, Contender, EvaluateError, Experiment, Manner, Part, PartError, Plan, Report, Shard, Watch, run_trials,
     unrecorded,
 };
-use ferry::jobs::Life;
-use ferry::open;
-use ferry::program::{Connection, Program};
-use ferry::protocol::{Conversation, Outgoing};
-use ferry::recovery::{self, Findings, Recovery, RecoveryPart, RecoveryPlan, RecoveryQuery};
-use ferry_core::scenario::{ControllerName, Parameters};
+use ferry_lab::jobs::Life;
+use ferry_lab::program::{Connection, Program};
+use ferry_lab::recovery::{self, Findings, Recovery, RecoveryPart, RecoveryPlan, RecoveryQuery};
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ferry::learn::sweep::{STEP_M, Sweep};
-use ferry::learn::{Ending, Lane, Lanes, Recipe, Terrain};
-use ferry::open;
 use ferry_core::trial::{Arena, LoggedMap};
+use ferry_files::open;
+use ferry_lab::learn::sweep::{STEP_M, Sweep};
+use ferry_lab::learn::{Ending, Lane, Lanes, Recipe, Terrain};
 use numpy::{PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};

@@ -8,7 +8,7 @@ mod threads;
 use std::ffi::OsString;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use ferry::camera::{AdapterChoice, Gpu};
+use ferry_camera::{AdapterChoice, Gpu};
 use ferry_core::geometry::Rect;
 use ferry_core::image::GrayImage;
 use ferry_core::perception::{OBSERVATION_SIZE_PX, Observation};

@@ -2,12 +2,12 @@
 
 use std::sync::{Arc, Mutex};
 
-use ferry::camera::{Camera, Gpu};
-use ferry::open;
+use ferry_camera::{Camera, Gpu};
 use ferry_core::geometry::Point2;
 use ferry_core::perception::OBSERVATION_SIZE_PX;
 use ferry_core::scenario::{ControllerName, LEAST_DISTANCE_M, Parameters, Scenario};
 use ferry_core::trial::{Arena, Input, LoggedMap, Phase, Question, Seen, Source, StopReason, Trial, TrialState};
+use ferry_files::open;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};

@@ -31,7 +31,7 @@ fn layout(module: &Module, name: &str) -> (usize, Vec<(String, usize)>) {
 
 #[test]
 fn every_shader_is_valid_without_extensions() {
-    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders")).unwrap() {
+    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders")).unwrap() {
         let path = entry.unwrap().path();
         let module = parse(&std::fs::read_to_string(&path).unwrap());
         Validator::new(ValidationFlags::all(), Capabilities::empty())

@@ -11,7 +11,7 @@ use anyhow::Context;
 use self::episode::Episode;
 use self::minari::{DATA_SET, DataSet};
 use crate::boards::{Boards, Kept};
-use crate::camera::Camera;
+use ferry_camera::Camera;
 use ferry_core::challenge::{AttemptError, Challenge, ChallengeName};
 
 #[derive(clap::Subcommand)]

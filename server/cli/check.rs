@@ -8,8 +8,8 @@ use clap::Parser;
 
 use super::evaluate::table;
 use super::{Command, evaluate, recovery};
-use crate::evaluate::{Baseline, Change, ERROR_RATE, Trials};
-use crate::files::{read_at_most, replace};
+use ferry_files::{read_at_most, replace};
+use ferry_lab::evaluate::{Baseline, Change, ERROR_RATE, Trials};
 
 /// Largest file of a baseline.
 const BYTES_MOST: u64 = 64 << 20;
@@ -63,7 +63,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 }
 
 /// Runs a command and returns what each of its trials gave.
-fn trials(command: &[String], gpu: &std::sync::Arc<crate::camera::Gpu>) -> anyhow::Result<Vec<Trials>> {
+fn trials(command: &[String], gpu: &std::sync::Arc<ferry_camera::Gpu>) -> anyhow::Result<Vec<Trials>> {
     match Stored::try_parse_from(command).context("the command of the baseline")?.command {
         Command::Evaluate(arguments) => evaluate::trials(&arguments, gpu),
         Command::Recovery(arguments) => recovery::trials(&arguments, gpu),

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use super::serve;
 use crate::http::EmbeddedFile;
-use crate::ur::Twin;
+use ferry_ur::Twin;
 
 #[derive(clap::Args)]
 pub struct Arguments {

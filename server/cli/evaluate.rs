@@ -10,16 +10,16 @@ use std::sync::atomic::AtomicBool;
 use anyhow::{Context, ensure};
 
 use super::progress::progress;
-use crate::camera::Gpu;
-use crate::evaluate::{
+use ferry_camera::Gpu;
+use ferry_core::scenario::{ControllerName, Parameters};
+use ferry_core::trial::{Nowhere, Sink};
+use ferry_files::open;
+use ferry_files::replace;
+use ferry_lab::evaluate::{
     Cell, Contender, DISTURBANCES, EPISODES, Episode, EvaluateError, Experiment, Manner, Part, Plan, Report, Shard,
     Trials, Variation, Watch, run, run_one, run_trials, unrecorded,
 };
-use crate::files::replace;
-use crate::open;
-use crate::recording::Recorder;
-use ferry_core::scenario::{ControllerName, Parameters};
-use ferry_core::trial::{Nowhere, Sink};
+use ferry_recording::Recorder;
 
 pub use output::Output;
 pub(super) use output::{interval, table};

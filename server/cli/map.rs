@@ -2,11 +2,11 @@
 
 use std::process::ExitCode;
 
-use crate::open;
 use ferry_core::map::{FreeSpace, Summary};
 use ferry_core::plant::BEAD_RADIUS_M;
 use ferry_core::scenario::CLEARANCE_M;
 use ferry_core::trial::Arena;
+use ferry_files::open;
 
 /// Limit of printed notes: one mistake is often repeated everywhere in a drawing.
 const SHOWN_NOTES: usize = 20;

@@ -6,9 +6,9 @@ use std::process::ExitCode;
 use anyhow::Context;
 
 use super::evaluate::Output;
-use crate::evaluate::{Part, PartError, Report, merge};
-use crate::files::read_at_most;
-use crate::recovery::{self, RecoveryPart, merge_recovery};
+use ferry_files::read_at_most;
+use ferry_lab::evaluate::{Part, PartError, Report, merge};
+use ferry_lab::recovery::{self, RecoveryPart, merge_recovery};
 
 /// Largest file of a shard.
 const BYTES_MOST: u64 = 4 << 30;

@@ -9,14 +9,16 @@ use anyhow::Context;
 use super::evaluate::{interval, table};
 use super::formats::{Formats, Formatted};
 use super::progress::progress;
-use crate::camera::Gpu;
-use crate::evaluate::{EvaluateError, Shard, Trials};
-use crate::files::replace;
-use crate::jobs::Life;
-use crate::recording::Recorder;
-use crate::recovery::{Findings, Kind, Outcome, Recovery, RecoveryPart, RecoveryPlan, RecoveryQuery, Report, Subject};
+use ferry_camera::Gpu;
 use ferry_core::scenario::ControllerName;
 use ferry_core::trial::{Nowhere, Sink};
+use ferry_files::replace;
+use ferry_lab::evaluate::{EvaluateError, Shard, Trials};
+use ferry_lab::jobs::Life;
+use ferry_lab::recovery::{
+    Findings, Kind, Outcome, Recovery, RecoveryPart, RecoveryPlan, RecoveryQuery, Report, Subject,
+};
+use ferry_recording::Recorder;
 
 #[derive(clap::Args)]
 pub struct Arguments {

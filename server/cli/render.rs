@@ -7,15 +7,15 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use crate::camera::{Camera, Subject};
-use crate::evaluate::Trace;
-use crate::files::read_at_most;
-use crate::open;
+use ferry_camera::{Camera, Subject};
 use ferry_core::geometry::{Point2, Point3};
 use ferry_core::image::Picture;
 use ferry_core::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, WallMotion};
 use ferry_core::scenario::{ControllerName, Parameters};
 use ferry_core::trial::Tally;
+use ferry_files::open;
+use ferry_files::read_at_most;
+use ferry_lab::evaluate::Trace;
 
 /// Largest golden picture.
 const PNG_BYTES_MOST: u64 = 64 << 20;

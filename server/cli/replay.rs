@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use crate::camera::{Camera, CameraError, ImageSource};
-use crate::learn::Library;
-use crate::open;
+use ferry_camera::{Camera, CameraError, ImageSource};
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::trial::{Arena, Deciding, Entry, replay};
+use ferry_files::open;
+use ferry_lab::learn::Library;
 
 #[derive(clap::Args)]
 pub struct Arguments {

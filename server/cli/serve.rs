@@ -12,12 +12,11 @@ use clap::builder::RangedU64ValueParser;
 use tokio::sync::watch;
 
 use crate::http::{self, EmbeddedFile, Page};
-use crate::open;
-use crate::recording::Retention;
-use crate::robot_client;
-use crate::robot_server::{self, Ports};
-use crate::ur::{Twin, model::Model};
 use ferry_core::scenario::Scenario;
+use ferry_files::open;
+use ferry_recording::Retention;
+use ferry_ur::server::Ports;
+use ferry_ur::{Twin, model::Model};
 
 /// When the server has stopped: time for background work to end.
 const END_WITHIN: Duration = Duration::from_secs(1);
@@ -203,10 +202,10 @@ async fn serve(arguments: &Arguments, page: Page, twin: Option<Arc<Twin>>) -> an
         server.robot().set_model(model);
     }
     if let Some(ports) = ports {
-        tokio::spawn(robot_server::serve(ports, server.robot().clone(), stopping.clone()));
+        tokio::spawn(ferry_ur::server::serve(ports, server.robot().clone(), stopping.clone()));
     }
     if let Some(twin) = twin {
-        tokio::spawn(robot_client::keep(twin, stopping));
+        tokio::spawn(ferry_ur::client::keep(twin, stopping));
     }
     // A full disk behind standard output, or a reader that is gone, does not end the server.
     let _ = writeln!(std::io::stdout(), "listening on http://{address}");

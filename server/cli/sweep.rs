@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use crate::learn::sweep::{STEP_M, Sweep, cells};
-use crate::open;
+use ferry_files::open;
+use ferry_lab::learn::sweep::{STEP_M, Sweep, cells};
 
 #[derive(clap::Args)]
 pub struct Arguments {

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 use anyhow::{Context, ensure};
 use serde::Serialize;
 
-use crate::evaluate::tracking::{Aim, Course, Followed, PUBLISHED_RMSE_M, SIZES_M, SPEEDS_M_S, Shape, WIDTHS_M};
 use ferry_core::scenario::Parameters;
+use ferry_lab::evaluate::tracking::{Aim, Course, Followed, PUBLISHED_RMSE_M, SIZES_M, SPEEDS_M_S, Shape, WIDTHS_M};
 
 #[derive(clap::Args)]
 pub struct Arguments {

@@ -12,14 +12,14 @@ use anyhow::{Context, ensure};
 use indicatif::ProgressBar;
 
 use super::progress::progress;
-use crate::files::replace;
-use crate::learn::sweep::{STEP_M, Sweep, cells};
-use crate::learn::{
+use ferry_core::policy::{Architecture, Policy};
+use ferry_files::open;
+use ferry_files::replace;
+use ferry_lab::learn::sweep::{STEP_M, Sweep, cells};
+use ferry_lab::learn::{
     Cells, Curve, EXAMINATION_SEED, Ending, Frame, GoalSet, MOST_TERRAINS, Marks, Recipe, RecipeName, Run, Saving,
     State, Terrain, drive, revision, wall_waves_m,
 };
-use crate::open;
-use ferry_core::policy::{Architecture, Policy};
 
 const CHECKPOINT_PERIOD: Duration = Duration::from_secs(60);
 
@@ -214,7 +214,7 @@ fn message(state: &State, steps_per_s: f64, updates_per_s: f64) -> String {
 }
 
 fn describe(marks: &Marks) -> String {
-    let [low, high] = crate::evaluate::wilson95(marks.reached, marks.episodes);
+    let [low, high] = ferry_lab::evaluate::wilson95(marks.reached, marks.episodes);
     format!(
         "{}/{} reached ({:.2} % to {:.2} %), {} collided, {} out of steps, {:.1} steps, {:.1} on the shortest path",
         marks.reached,

@@ -5,13 +5,13 @@ use std::time::Duration;
 
 use super::access::Access;
 use super::{Server, Settings};
-use crate::camera::Gpu;
-use crate::faults;
-use crate::recording::{Archive, Options, Recorder, Retention};
+use crate::faults::{self, Fault};
 use crate::session::{CommandError, SessionHandle};
+use ferry_camera::Gpu;
 use ferry_core::scenario::{ControllerName, Scenario};
 use ferry_core::session::{Command, Opening, SPEED_MAX};
 use ferry_core::trial::{Catalog, Input, InputLog, Nowhere, Sink};
+use ferry_recording::{Archive, Options, Recorder, Retention};
 
 fn start(name: &str, controller: ControllerName, sink: Box<dyn Sink>) -> SessionHandle {
     let gpu = Gpu::open(Default::default()).unwrap();
@@ -43,44 +43,25 @@ async fn run(session: &SessionHandle) {
 async fn a_fault_ends_only_its_session_with_a_message() {
     let other = start("unharmed", ControllerName::Attractor, Box::new(Nowhere::default()));
     run(&other).await;
-    for (point, message) in [("step", "injected: step"), ("render", "injected: render")] {
-        let folder = tempfile::tempdir().unwrap();
-        let archive = Archive::new(folder.path().to_owned(), Retention::default());
-        let name = format!("breaks at {point}");
-        let recorder = Recorder::in_archive(&archive, "broken", Options::LIVE).unwrap();
-        let session = start(&name, ControllerName::Rl, Box::new(recorder));
-        run(&session).await;
-        faults::arm(&format!("session {name}"), point);
-        let reason = reason_of_end(&session).await;
-        assert!(reason.contains(message), "{point}: {reason}");
-        let refused = session.send(Command::Run).await;
-        assert!(matches!(refused, Err(CommandError::Ended)), "{point}: {refused:?}");
-        let tick = session.watch().borrow().moment.tick;
-        assert!(session.watch().borrow().moment.bead_m.x.is_finite());
-        session.close();
-        // The recording is complete up to the fault.
-        let files = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
-        let log = files.into_iter().find(|path| path.extension().is_some_and(|ending| ending == "ferry")).unwrap();
-        let log = InputLog::read(&std::fs::read(log).unwrap()).unwrap();
-        assert!(log.entries.len() as u64 >= tick.min(125), "{point}: {} entries at tick {tick}", log.entries.len());
-        wait_for_a_second(&other).await;
-    }
-}
-
-#[tokio::test(flavor = "multi_thread")]
-async fn a_fault_in_the_recording_is_shown_and_the_session_continues() {
     let folder = tempfile::tempdir().unwrap();
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
-    let recorder = Recorder::in_archive(&archive, "unwritten", Options::LIVE).unwrap();
-    let session = start("unwritten", ControllerName::Attractor, Box::new(recorder));
+    let recorder = Recorder::in_archive(&archive, "broken", Options::LIVE).unwrap();
+    let session = start("breaks", ControllerName::Rl, Box::new(recorder));
     run(&session).await;
-    assert_eq!(session.watch().borrow().recording, "recording");
-    faults::arm("recording unwritten", "write");
-    let mut views = session.watch();
-    let stopped = views.wait_for(|view| view.recording.contains("recording thread failed"));
-    tokio::time::timeout(Duration::from_secs(20), stopped).await.expect("the view shows the fault").unwrap();
-    wait_for_a_second(&session).await;
-    assert_eq!(session.watch().borrow().ended, None);
+    faults::arm("breaks", Fault::Panic);
+    let reason = reason_of_end(&session).await;
+    assert_eq!(reason, "injected panic");
+    let refused = session.send(Command::Run).await;
+    assert!(matches!(refused, Err(CommandError::Ended)), "{refused:?}");
+    let tick = session.watch().borrow().moment.tick;
+    assert!(session.watch().borrow().moment.bead_m.x.is_finite());
+    session.close();
+    // The recording is complete up to the fault.
+    let files = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
+    let log = files.into_iter().find(|path| path.extension().is_some_and(|ending| ending == "ferry")).unwrap();
+    let log = InputLog::read(&std::fs::read(log).unwrap()).unwrap();
+    assert!(log.entries.len() as u64 >= tick.min(125), "{} entries at tick {tick}", log.entries.len());
+    wait_for_a_second(&other).await;
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -11,9 +11,9 @@ use axum::http::StatusCode;
 use super::problem::Problem;
 use super::sessions::is_name;
 use super::socket::{Incoming, Limits, Socket};
-use crate::program::{Connection, Program};
 use crate::protocol::{Conversation, Outgoing};
 use ferry_core::scenario::ControllerName;
+use ferry_lab::program::{Connection, Program};
 
 pub const LIMITS: Limits = Limits { message_bytes: 16 << 10, ping_every: Duration::from_secs(5) };
 /// Programs whose names are kept; those that have disconnected make room for others.

@@ -6,12 +6,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use super::live::Hub;
-use crate::files::replace;
-use crate::open;
 use crate::session::{SessionHandle, View};
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::{Opening, Saved};
 use ferry_core::trial::LogError;
+use ferry_files::open;
+use ferry_files::replace;
 
 pub const SAVE_EVERY: Duration = Duration::from_secs(1);
 /// A hanging session must not keep the others from being saved.

@@ -14,13 +14,13 @@ use tokio::sync::watch;
 use super::live::Hub;
 use super::problem::Problem;
 use super::saved_sessions::{SAVE_EVERY, SavedSessions};
-use crate::camera::Gpu;
-use crate::recording::{Archive, Options, Recorder};
 use crate::session::{CommandError, SessionHandle};
-use crate::ur::{Robot, Twin};
+use ferry_camera::Gpu;
 use ferry_core::scenario::Scenario;
 use ferry_core::session::{Command, Opening};
 use ferry_core::trial::{Catalog, Nowhere, Sink, TrialError};
+use ferry_recording::{Archive, Options, Recorder};
+use ferry_ur::{Robot, Twin};
 
 /// The session that exists from the start.
 pub const MAIN: &str = "main";

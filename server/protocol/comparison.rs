@@ -5,12 +5,12 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::OverlayMessage;
-use crate::program::Program;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::{Numbers2, Numbers4};
 use ferry_core::session::{BranchPoint, Progress};
 use ferry_core::trial::{Moment, Motion, TickRecord};
+use ferry_lab::program::Program;
 
 /// Ticks between two samples of a branch: 25 Hz of simulated time.
 pub const TICKS_A_SAMPLE: u64 = 5;

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::{ErrorMessage, ProgramAnswer, ProgramMessage};
-use crate::program::{Reply, Sent};
 use ferry_core::control::transport::program::Answer;
 use ferry_core::trial::{Leg, REASON_BYTES_MOST};
+use ferry_lab::program::{Reply, Sent};
 
 /// The questions and answers of one program.
 pub struct Conversation {

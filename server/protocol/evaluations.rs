@@ -6,10 +6,10 @@ use utoipa::ToSchema;
 use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
 use super::jobs::JobStage;
-use crate::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row, Setting, Variation};
-use crate::jobs::Stage;
 use ferry_core::scenario::{ControllerName, RlPolicy};
 use ferry_core::schema::Numbers2;
+use ferry_lab::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row, Setting, Variation};
+use ferry_lab::jobs::Stage;
 
 /// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
 /// same starts, goals and seeds.

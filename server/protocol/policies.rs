@@ -5,10 +5,10 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::trainings::{Examination, TrainingPoint, TrainingQuery};
-use crate::learn;
-use crate::learn::{Added, Library};
 use ferry_core::policy::{Manifest, Policies as _, Policy};
 use ferry_core::scenario::RlPolicy;
+use ferry_lab::learn;
+use ferry_lab::learn::{Added, Library};
 
 /// How a policy was trained on this server.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

@@ -5,12 +5,12 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::ErrorMessage;
-use crate::program::{Asked, Program};
 use ferry_core::control::transport::program::Answer;
 use ferry_core::geometry::{Point2, Rect};
 use ferry_core::scenario::Parameters;
 use ferry_core::session::ANSWER_WITHIN;
 use ferry_core::trial::{ControlQuery, Leg};
+use ferry_lab::program::{Asked, Program};
 
 /// Version of these messages. Increase it when an old program could misread the server.
 pub const PROGRAM_PROTOCOL_VERSION: u32 = 1;

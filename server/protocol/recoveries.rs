@@ -5,9 +5,9 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::jobs::JobStage;
-use crate::recovery::{self, Basin, BasinDifference, CellRow, Findings, Kind, Outcome, RecoveryJob, Tried};
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::Numbers2;
+use ferry_lab::recovery::{self, Basin, BasinDifference, CellRow, Findings, Kind, Outcome, RecoveryJob, Tried};
 
 /// Body of `POST /api/recoveries`. The moment is one of a session, or the start of a scenario or of a random trial.
 #[derive(Clone, Debug, PartialEq, Deserialize, TS, ToSchema)]

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::ur::Standing;
+use ferry_ur::Standing;
 
 /// Who is connected to the robot server, what moves the arm, and what was refused.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -62,8 +62,8 @@ pub struct TwinStanding {
     pub stopped: Option<String>,
 }
 
-impl From<&crate::ur::TwinStanding> for TwinStanding {
-    fn from(standing: &crate::ur::TwinStanding) -> Self {
+impl From<&ferry_ur::TwinStanding> for TwinStanding {
+    fn from(standing: &ferry_ur::TwinStanding) -> Self {
         Self {
             address: standing.address.to_string(),
             allows_motion: standing.allows_motion,
@@ -81,11 +81,9 @@ impl From<&crate::ur::TwinStanding> for TwinStanding {
 
 impl From<&Standing> for RobotStanding {
     fn from(standing: &Standing) -> Self {
-        let client = |one: &crate::ur::controller::Connected| RobotClient {
-            from: one.from.clone(),
-            speech: one.port.to_owned(),
-        };
-        let refused = |one: &crate::ur::refusals::Refused| RobotRefusal {
+        let client =
+            |one: &ferry_ur::controller::Connected| RobotClient { from: one.from.clone(), speech: one.port.to_owned() };
+        let refused = |one: &ferry_ur::refusals::Refused| RobotRefusal {
             tick: one.tick,
             what: one.what.clone(),
             why: one.why.clone(),

@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::evaluate::wilson95;
-use crate::learn::sweep::STEP_M;
-use crate::learn::{self, Ending, Frame, Marks, Point, Status, Training};
 use ferry_core::schema::Numbers2;
+use ferry_lab::evaluate::wilson95;
+use ferry_lab::learn::sweep::STEP_M;
+use ferry_lab::learn::{self, Ending, Frame, Marks, Point, Status, Training};
 
 pub use query::{FusionName, RecipeName, TrainingQuery, TrainingSettings};
 

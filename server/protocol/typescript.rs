@@ -10,10 +10,7 @@ use serde_json::json;
 use ts_rs::{Config, TS};
 
 use super::*;
-use crate::camera::VIEW_PX;
-use crate::evaluate::{Comparison, PairedMean, Row, Setting, Variation};
-use crate::learn::Recipe;
-use crate::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
+use ferry_camera::VIEW_PX;
 use ferry_core::control::CONTROL_PERIOD_S;
 use ferry_core::control::transport::errt::MOST_EDGES;
 use ferry_core::geometry::{Polygon, Rect};
@@ -27,6 +24,9 @@ use ferry_core::scenario::{
 };
 use ferry_core::session::SPEED_MAX;
 use ferry_core::trial::{EventKind, GOAL_RADIUS_M};
+use ferry_lab::evaluate::{Comparison, PairedMean, Row, Setting, Variation};
+use ferry_lab::learn::Recipe;
+use ferry_lab::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
 
 const HEADER: &str =
     "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n\n";

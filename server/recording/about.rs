@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use super::{Opening, RecordingError, Sample};
-use crate::files::{read_at_most, replace};
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
 use ferry_core::trial::{EventKind, Phase};
+use ferry_files::{read_at_most, replace};
 
 /// Longest title.
 const MAX_TITLE_CHARS: usize = 80;

@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::program::{self, Carrier, Program, ProgramError};
 use ferry_core::image::ImageSource;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::{self, Progress};
+use ferry_lab::program::{self, Carrier, Program, ProgramError};
 
 /// A snapshot of a session, and the inputs after it.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Why a session refuses a command.
 
 use super::{ANSWER_WITHIN, COMMAND_QUEUE};
-use crate::ur::twin::DriveError;
 use ferry_core::session::CommandError as SessionError;
+use ferry_ur::twin::DriveError;
 
 /// Why a command was refused; the session is unchanged.
 #[derive(Debug, thiserror::Error)]

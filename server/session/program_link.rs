@@ -5,11 +5,11 @@ use std::time::Instant;
 
 use tokio::sync::oneshot::{self, error::TryRecvError};
 
-use crate::program::Program;
 use ferry_core::control::transport::program::Answer;
 use ferry_core::image::ImageSource;
 use ferry_core::session::{ANSWER_WITHIN, Session};
 use ferry_core::trial::ControlQuery;
+use ferry_lab::program::Program;
 
 #[derive(Default)]
 pub struct ProgramLink {

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::ur::news::Item;
-use crate::ur::{Robot, Standing, Twin, TwinStanding};
 use ferry_core::image::ImageSource;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::{Command, Session};
 use ferry_core::trial::{Event, EventKind, Input};
+use ferry_ur::news::Item;
+use ferry_ur::{Robot, Standing, Twin, TwinStanding};
 
 #[derive(Default)]
 pub struct RobotLink {

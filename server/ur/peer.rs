@@ -241,8 +241,8 @@ fn check_types<'a>(types: &[u8], wanted: impl Iterator<Item = (&'a str, &'a str)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ur::controller::Controller;
-    use crate::ur::{Arm, rtde::Client};
+    use crate::controller::Controller;
+    use crate::{Arm, rtde::Client};
     use proptest::prelude::*;
 
     fn answer(step: Step, payload: &[u8]) -> Result<bool, PeerError> {

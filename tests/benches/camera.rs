@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::Criterion;
-use ferry::camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
+use ferry_camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
 use ferry_core::geometry::{Point2, Point3};
 use ferry_core::image::CameraMount;
 use ferry_core::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation, WallMotion};

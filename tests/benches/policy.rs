@@ -4,9 +4,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::Criterion;
-use ferry::camera::{AdapterChoice, Camera, Gpu, Subject};
-use ferry::learn::sweep::{STEP_M, Sweep};
-use ferry::learn::{Recipe, Run, State, Terrain};
+use ferry_camera::{AdapterChoice, Camera, Gpu, Subject};
 use ferry_core::control::transport::rl::Rl;
 use ferry_core::control::transport::{Transport, TransportInput};
 use ferry_core::geometry::Point2;
@@ -16,6 +14,8 @@ use ferry_core::perception::{ObstacleMap, Percept, wall_spread};
 use ferry_core::policy::Policy;
 use ferry_core::scenario::Parameters;
 use ferry_core::trial::Arena;
+use ferry_lab::learn::sweep::{STEP_M, Sweep};
+use ferry_lab::learn::{Recipe, Run, State, Terrain};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 

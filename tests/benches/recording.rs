@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use criterion::Criterion;
-use ferry::camera::{AdapterChoice, Camera, Gpu};
-use ferry::recording::{Archive, Options, Recorder, Retention};
+use ferry_camera::{AdapterChoice, Camera, Gpu};
 use ferry_core::scenario::ControllerName;
 use ferry_core::trial::{Arena, Beginning, Nowhere, Sink, Source, Trial};
+use ferry_recording::{Archive, Options, Recorder, Retention};
 
 const TICKS: u64 = 2500;
 const TURNS: usize = 30;

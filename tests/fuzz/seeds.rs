@@ -4,17 +4,17 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use bytes::BytesMut;
-use ferry::open;
 use ferry::protocol::ClientMessage;
-use ferry::ur::controller::Controller;
-use ferry::ur::peer::Peer;
-use ferry::ur::{Arm, rtde};
 use ferry_core::geometry::Point2;
 use ferry_core::map::Map;
 use ferry_core::plant::PositionerKind;
 use ferry_core::policy::Policy;
 use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, Shipped, When};
 use ferry_core::trial::{Arena, Beginning, Entry, Input, LogWriter, LoggedBeginning, LoggedTick, Source, Trial};
+use ferry_files::open;
+use ferry_ur::controller::Controller;
+use ferry_ur::peer::Peer;
+use ferry_ur::{Arm, rtde};
 use tokio_util::codec::Encoder;
 
 use super::targets::{Spots, Target, written};

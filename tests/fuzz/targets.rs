@@ -5,11 +5,8 @@ use std::net::IpAddr;
 use std::sync::{Arc, LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
-use ferry::camera::{CameraError, ImageSource, Subject};
 use ferry::protocol::ClientMessage;
-use ferry::ur::controller::{Controller, LoadError};
-use ferry::ur::peer::{Peer, PeerError, Report};
-use ferry::ur::{Arm, Twin, dashboard, rtde, script};
+use ferry_camera::{CameraError, ImageSource, Subject};
 use ferry_core::control::limits::Limits;
 use ferry_core::geometry::{Point3, Rect};
 use ferry_core::image::{CameraFrame, Picture};
@@ -19,6 +16,9 @@ use ferry_core::policy::Policy;
 use ferry_core::robot::Joints;
 use ferry_core::scenario::{ControllerName, Scenario};
 use ferry_core::trial::{Arena, Case, Entry, InputLog, LoggedBeginning, Source, Trial, replay};
+use ferry_ur::controller::{Controller, LoadError};
+use ferry_ur::peer::{Peer, PeerError, Report};
+use ferry_ur::{Arm, Twin, dashboard, rtde, script};
 use tokio_util::codec::{Decoder, Encoder};
 
 use super::drawing;

@@ -1,7 +1,7 @@
 //! An attempt as an episode: what the camera showed and what the hand did, at each control step.
 
 use crate::boards::Kept;
-use crate::camera::ImageSource;
+use ferry_camera::ImageSource;
 use ferry_core::challenge::{AttemptError, Challenge};
 use ferry_core::control::Refusal;
 use ferry_core::geometry::{Point2, Vector2};

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use comfy_table::{CellAlignment, ColumnConstraint, Table, TableStyle};
 
 use crate::cli::formats::{Formats, Formatted};
-use crate::evaluate::{Comparison, Failure, Manner, PairedMean, Report, Row, Setting};
+use ferry_lab::evaluate::{Comparison, Failure, Manner, PairedMean, Report, Row, Setting};
 
 #[derive(clap::Args)]
 pub struct Output {

@@ -6,12 +6,12 @@ use std::process::ExitCode;
 use anyhow::{Context, ensure};
 
 use super::{Arguments, bar_of, describe, files, learn};
-use crate::learn::{
+use ferry_core::map::MazeFamily;
+use ferry_files::open;
+use ferry_lab::learn::{
     Curve, EXAMINATION_SEED, Marks, MazeLattice, RecipeName, SurveyRecipe, SurveyRun, examine_surveys, examine_teacher,
     revision,
 };
-use crate::open;
-use ferry_core::map::MazeFamily;
 
 /// Instead of the names of maps.
 pub const MAP: &str = "generated";

@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::camera::{Camera, Gpu};
-use crate::program::ProgramError;
 use crate::protocol::{Branch, ComparisonMessage};
 use crate::session::BranchPoint;
+use ferry_camera::{Camera, Gpu};
 use ferry_core::scenario::ControllerName;
 use ferry_core::trial::TrialError;
+use ferry_lab::program::ProgramError;
 
 /// Interval of progress messages.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);

@@ -13,12 +13,12 @@ use tokio::time::Instant;
 
 use super::comparison;
 use super::seats::Seats;
-use crate::camera::Gpu;
 use crate::protocol::{
     BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
     ServerMessage, StateMessage,
 };
 use crate::session::{CommandError, SessionHandle, View};
+use ferry_camera::Gpu;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Recalled;

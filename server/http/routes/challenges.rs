@@ -11,20 +11,20 @@ use jiff::{Timestamp, Zoned, tz::TimeZone};
 
 use super::sessions::find;
 use crate::boards::{BoardError, Boards, Signature};
-use crate::camera::{Camera, CameraError, Gpu};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{ChallengePath, Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::jobs::gentle_pool;
 use crate::protocol::{
     AttemptAnswer, AttemptQuery, AttemptReport, ChallengeReport, ChallengeSummary, Challenges, Ghosts, Period,
 };
+use ferry_camera::{Camera, CameraError, Gpu};
 use ferry_core::challenge::{Attempt, AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Ended;
 use ferry_core::trial::TrialError;
+use ferry_lab::jobs::gentle_pool;
 
 /// Attempts wait for each other, and so do the controllers' runs. An attempt never waits for them.
 const RUN_WAITS: Duration = Duration::from_secs(60);

@@ -7,14 +7,14 @@ use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use crate::evaluate::{Evaluation, QueryError, Report, SubmitError};
 use crate::http::Server;
 use crate::http::body::{WholeBody, attachment, parse};
 use crate::http::path::{EvaluationPath, Path, ReportPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::jobs::QueueError;
 use crate::protocol::{EvaluationQuery, EvaluationReport, EvaluationSummary, Evaluations};
+use ferry_lab::evaluate::{Evaluation, QueryError, Report, SubmitError};
+use ferry_lab::jobs::QueueError;
 
 /// The evaluations: running, waiting, and the last ended ones.
 #[utoipa::path(get, path = "/api/evaluations", tag = "evaluations", operation_id = "evaluations",

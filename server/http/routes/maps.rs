@@ -13,7 +13,6 @@ use serde::{Deserialize, Serialize};
 use tokio::sync::watch;
 use utoipa::{IntoParams, ToSchema};
 
-use crate::files::replace;
 use crate::http::Server;
 use crate::http::body::{WholeBody, attachment};
 use crate::http::path::{MapPath, Path, Query};
@@ -23,6 +22,7 @@ use crate::protocol::{MapCheck, MapFacts, MapReport};
 use ferry_core::map::{Library, MAX_SVG_BYTES, Map, MapError, READER, Summary, decoded, first_reader, is_added};
 use ferry_core::plant::BEAD_RADIUS_M;
 use ferry_core::trial::Arena;
+use ferry_files::replace;
 
 /// A drawing of a map.
 fn example() -> serde_json::Value {

@@ -8,7 +8,6 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::sessions::find;
-use crate::camera::Camera;
 use crate::http::Server;
 use crate::http::body::attachment;
 use crate::http::path::{MomentPath, Path, SessionPath};
@@ -16,6 +15,7 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::protocol::MomentMessage;
 use crate::session::CommandError;
+use ferry_camera::Camera;
 use ferry_core::image::EncodeError;
 use ferry_core::session::{self, BranchPoint, Recalled};
 use ferry_core::trial::{Case, Moment, TickRecord, TrialError};

@@ -12,10 +12,10 @@ use crate::http::body::{WholeBody, attachment, parse};
 use crate::http::path::{Path, PolicyPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::learn::LibraryError;
 use crate::protocol::{Policies, PolicyName, PolicySummary};
 use ferry_core::policy::PolicyError;
 use ferry_core::scenario::RlPolicy;
+use ferry_lab::learn::LibraryError;
 
 /// The shipped policies, then the added ones.
 #[utoipa::path(get, path = "/api/policies", tag = "policies", operation_id = "policies",

@@ -16,7 +16,7 @@ use crate::http::path::{Path, RecordingPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, Unavailable};
 use crate::protocol::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
-use crate::recording::{Content, Listed, RecordingError};
+use ferry_recording::{Content, Listed, RecordingError};
 
 /// Chunk size for reading recordings.
 const CHUNK_BYTES: usize = 64 << 10;

@@ -15,10 +15,10 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::http::sessions::MAIN;
 use crate::protocol::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary, RecoveryTrials};
-use crate::recovery::{RecoveryJob, Report, Start, SubmitRecoveryError};
 use ferry_core::scenario::{Scenario, Shipped};
 use ferry_core::session::Recalled;
 use ferry_core::trial::{Case, Origin, Timed, Trial, TrialError};
+use ferry_lab::recovery::{RecoveryJob, Report, Start, SubmitRecoveryError};
 
 /// The recovery maps: running, waiting, and the last ended ones.
 #[utoipa::path(get, path = "/api/recoveries", tag = "recoveries", operation_id = "recoveries",

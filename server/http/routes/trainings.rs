@@ -15,11 +15,11 @@ use crate::http::path::{FramePath, Path, TrainingPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, Malformed, NotFound, NotUpgraded, OutOfRange, TooMany, Unavailable};
 use crate::http::socket::{Limits, Socket, Upgrade};
-use crate::learn::LibraryError;
-use crate::learn::{QueryError, SubmitTrainingError, Training};
 use crate::protocol::{
     TrainingCells, TrainingFrame, TrainingMessage, TrainingQuery, TrainingReport, TrainingSummary, Trainings,
 };
+use ferry_lab::learn::LibraryError;
+use ferry_lab::learn::{QueryError, SubmitTrainingError, Training};
 
 /// Interval at which a change is looked for.
 const LOOK_EVERY: Duration = Duration::from_millis(200);

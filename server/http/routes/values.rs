@@ -9,20 +9,20 @@ use axum::extract::State;
 use axum::http::StatusCode;
 
 use super::sessions::view;
-use crate::camera::Gpu;
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
-use crate::jobs::gentle_pool;
-use crate::learn::{Atlas, AtlasError};
 use crate::protocol::{ValueMap, ValueQuery};
+use ferry_camera::Gpu;
 use ferry_core::control::transport::Carrier;
 use ferry_core::geometry::Point2;
 use ferry_core::perception::Area;
 use ferry_core::policy::{Judgement, Lattice, Policy, PolicyError, Survey};
 use ferry_core::trial::{Arena, Sight};
+use ferry_lab::jobs::gentle_pool;
+use ferry_lab::learn::{Atlas, AtlasError};
 
 /// Requests for value maps run one at a time.
 const PAINTER_WAITS: Duration = Duration::from_secs(60);

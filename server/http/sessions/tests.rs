@@ -1,10 +1,11 @@
 use std::time::Instant;
 
 use super::*;
+use crate::faults::{self, Fault};
 use ferry_core::trial::{Entry, Input, InputLog, LogWriter};
 
 fn sessions(folder: &tempfile::TempDir, settings: SessionSettings) -> Arc<Sessions> {
-    let archive = Archive::new(folder.path().join("recordings"), crate::recording::Retention::default());
+    let archive = Archive::new(folder.path().join("recordings"), ferry_recording::Retention::default());
     let saved = SavedSessions::in_folder(folder.path().join("sessions"), false);
     let gpu = Gpu::open(Default::default()).unwrap();
     let maps = watch::channel(0).1;
@@ -21,7 +22,7 @@ async fn reopening_a_session_that_ended_by_a_fault_restarts_it() {
     let sessions = sessions(&folder, settings(3, Duration::from_secs(3600)));
     let opened = sessions.open("anna").await.unwrap();
     assert!(Arc::ptr_eq(&opened, &sessions.open("anna").await.unwrap()));
-    crate::faults::arm("session anna", "step");
+    faults::arm("anna", Fault::Panic);
     opened.session.send(Command::Run).await.unwrap();
     let mut views = opened.session.watch();
     let ended = views.wait_for(|view| view.ended.is_some());
@@ -37,7 +38,7 @@ async fn a_hanging_session_does_not_block_the_others() {
     let folder = tempfile::tempdir().unwrap();
     let sessions = sessions(&folder, settings(4, Duration::ZERO));
     let hung = sessions.open("carl").await.unwrap();
-    crate::faults::arm("session carl", "hang");
+    faults::arm("carl", Fault::Hang);
     hung.session.send(Command::Run).await.unwrap();
     let mut views = hung.session.watch();
     // Its next step never returns.

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::learn;
 use ferry_core::policy::Fusion;
 use ferry_core::schema::Numbers2;
+use ferry_lab::learn;
 
 /// Recipe from which the settings start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{constant, keep};
-use crate::camera::robot::{Material, RobotSolid, solids};
+use ferry_camera::robot::{Material, RobotSolid, solids};
 use ferry_core::magnetics::dipole::BLOCK_REMANENCE_T;
 use ferry_core::magnetics::force;
 use ferry_core::plant::{BlockOrientation, TOOL_LENGTH_M};

@@ -3,7 +3,7 @@
 use jiff::Zoned;
 
 use super::{Archive, Listed, lock, name};
-use crate::recording::RecordingError;
+use crate::RecordingError;
 
 /// A part in progress ends at this fraction of its session's share, so that deleting old parts makes enough room.
 const PARTS_A_SHARE: u64 = 4;

@@ -2,8 +2,8 @@
 //! temperatures, digital and analog signals.
 
 use super::Arm;
-use crate::ur::controller::Controller;
-use crate::ur::registers::REGISTERS;
+use crate::controller::Controller;
+use crate::registers::REGISTERS;
 
 /// One output of a recipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

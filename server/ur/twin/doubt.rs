@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::ur::arm::{Spatial, pose, tool};
-use crate::ur::peer::Report;
+use crate::arm::{Spatial, pose, tool};
+use crate::peer::Report;
 use ferry_core::geometry::{Isometry3, UnitQuaternion, Vector3};
 use ferry_core::robot::forward;
 

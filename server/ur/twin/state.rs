@@ -4,9 +4,9 @@ use std::time::Instant;
 
 use super::doubt::{Apart, Doubt};
 use super::{DriveError, NORMAL, PLAYING, REDUCED, RUNNING, SILENCE, START_WITHIN};
-use crate::ur::drive_script::OVER;
-use crate::ur::news::News;
-use crate::ur::peer::Report;
+use crate::drive_script::OVER;
+use crate::news::News;
+use crate::peer::Report;
 use ferry_core::robot::Joints;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

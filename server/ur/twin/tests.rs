@@ -1,5 +1,5 @@
 use super::*;
-use crate::ur::{arm::pose, model::Model};
+use crate::{arm::pose, model::Model};
 use ferry_core::geometry::{Point2, Point3};
 use ferry_core::image::EmptyFloor;
 use ferry_core::plant::{Positioner, ToolOrientation};
