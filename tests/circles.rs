@@ -2,20 +2,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::house::sources;
+use super::house::{SourceFile, sources};
 
 type Module = Vec<String>;
 
-/// The source of each module by its path, without comments and tests.
+/// The source of each module by its path from its crate on, without comments and tests.
 fn modules() -> BTreeMap<Module, String> {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/server/");
     let mut modules = BTreeMap::new();
-    for (path, _, text) in sources() {
-        let inside = path.to_str().unwrap().strip_prefix(root).unwrap().strip_suffix(".rs").unwrap().to_owned();
+    for SourceFile { krate, inside, text, .. } in sources() {
         if inside.contains("test") || inside == "main" {
             continue;
         }
-        let name = if inside == "lib" { Module::new() } else { inside.split('/').map(str::to_owned).collect() };
+        let parts = [krate].into_iter().chain(inside.split('/').filter(|_| inside != "lib"));
+        let name = parts.map(str::to_owned).collect();
         let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
         let code: Vec<&str> = code.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
         modules.insert(name, code.join("\n"));
@@ -72,7 +71,7 @@ fn absolute(module: &Module, path: &str, modules: &BTreeMap<Module, String>) -> 
     let mut base = module.clone();
     match *parts.first()? {
         "crate" => {
-            base.clear();
+            base.truncate(1);
             parts.remove(0);
         }
         "super" | "self" => {
@@ -96,7 +95,7 @@ fn absolute(module: &Module, path: &str, modules: &BTreeMap<Module, String>) -> 
 fn home(name: &Module, modules: &BTreeMap<Module, String>, exports: &BTreeMap<Module, Module>) -> Module {
     let mut name = name.clone();
     for _ in 0..5 {
-        let length = (0..=name.len()).rev().find(|&length| modules.contains_key(&name[..length])).unwrap();
+        let length = (0..=name.len()).rev().find(|&length| modules.contains_key(&name[..length])).unwrap_or(0);
         let Some(target) = name.get(..length + 1).and_then(|short| exports.get(short)) else {
             name.truncate(length);
             break;

@@ -1,38 +1,53 @@
-//! Rules of `ARCHITECTURE.md`: which module may import which, file lengths, impure code, avoided phrases.
+//! Rules of `ARCHITECTURE.md`: which crate and module may import which, file lengths, impure code, avoided phrases.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-const FLOORS: [&[&str]; 15] = [
-    &["schema", "names", "panics", "faults"],
-    &["geometry"],
-    &["image", "robot", "magnetics", "map"],
-    &["plant"],
-    &["scenario", "tracking", "perception"],
-    &["policy"],
-    &["control"],
-    &["trial", "files"],
-    &["challenge", "program", "ur", "camera", "open"],
-    &["jobs", "export"],
-    &["learn", "evaluate", "session", "boards"],
-    &["recovery"],
-    &["recording", "protocol"],
-    &["http", "robot_client", "robot_server"],
-    &["cli", "main", "lib"],
+/// The crates that have floors, and these, lowest first. Between crates, their manifests keep the order.
+const FLOORS: [(&str, &[&[&str]]); 3] = [
+    (
+        "core",
+        &[
+            &["schema", "names", "panics"],
+            &["geometry"],
+            &["image", "robot", "magnetics", "map"],
+            &["plant"],
+            &["scenario", "tracking", "perception"],
+            &["policy"],
+            &["control"],
+            &["trial"],
+            &["challenge"],
+            &["session"],
+        ],
+    ),
+    ("lab", &[&["program", "jobs"], &["learn", "evaluate"], &["recovery"]]),
+    ("server", &[&["boards", "export", "faults"], &["session"], &["protocol"], &["http"], &["cli"]]),
 ];
 
+/// The crates of Ferry that each crate is built on.
+const BUILT_ON: [(&str, &[&str]); 7] = [
+    ("core", &[]),
+    ("camera", &["core"]),
+    ("files", &["core"]),
+    ("ur", &["core"]),
+    ("recording", &["core", "files"]),
+    ("lab", &["camera", "core", "files"]),
+    ("server", &["camera", "core", "files", "lab", "recording", "ur"]),
+];
+
+/// What `ferry-core` must not depend on, so that it runs in a browser and in a test without anything around it.
+const NOT_IN_CORE: [&str; 10] =
+    ["tokio", "wgpu", "re_", "axum", "tracing", "tempfile", "rustix", "libc", "jiff", "getrandom"];
+
 /// Crates that only these modules may use.
-const CONFINED: [(&str, &[&str]); 9] = [
-    ("wgpu", &["camera"]),
+const CONFINED: [(&str, &[&str]); 4] = [
     ("candle_core", &["policy", "learn"]),
-    ("tokio", &["program", "ur", "session", "http", "robot_client", "robot_server", "cli", "main"]),
-    ("re_chunk", &["recording"]),
-    ("re_log_encoding", &["recording"]),
-    ("re_log_types", &["recording"]),
-    ("re_sdk_types", &["recording"]),
+    ("tokio", &["program", "ur", "session", "http", "cli"]),
     ("utoipa", &["schema", "geometry", "plant", "scenario", "trial", "evaluate", "recovery", "protocol", "http"]),
     ("ts_rs", &["geometry", "plant", "scenario", "trial", "evaluate", "recovery", "protocol"]),
 ];
+
+/// What the camera must not see of the crate below it.
+const NOT_IN_CAMERA: [&str; 6] = ["perception", "policy", "control", "trial", "challenge", "session"];
 
 /// Code that only one file may have: what a client sends is limited there.
 const IN_ONE_FILE: [(&str, &str); 4] = [
@@ -60,34 +75,64 @@ const IMPURE: [&str; 9] = [
     "std::thread",
 ];
 
-pub fn sources() -> Vec<(PathBuf, String, String)> {
+/// A file of a crate below `server/`.
+pub struct SourceFile {
+    pub path: PathBuf,
+    /// Name of the crate without `ferry-`.
+    pub krate: &'static str,
+    /// Path from the crate's folder, without its ending.
+    pub inside: String,
+    pub text: String,
+}
+
+impl SourceFile {
+    /// The top module; for a crate without floors, the crate.
+    fn module(&self) -> &str {
+        match FLOORS.iter().any(|(krate, _)| *krate == self.krate) {
+            true => self.inside.split('/').next().unwrap(),
+            false => self.krate,
+        }
+    }
+
+    /// Without the tests within the file.
+    fn code(&self) -> &str {
+        self.text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default()
+    }
+}
+
+fn folder(krate: &str) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("server");
-    let mut folders = vec![root.clone()];
+    if krate == "server" { root } else { root.join(krate) }
+}
+
+pub fn sources() -> Vec<SourceFile> {
     let mut found = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path == root.join("assets") {
-                // Another package.
-                continue;
-            }
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "rs") {
-                let inside = path.strip_prefix(&root).unwrap();
-                let inside = inside.strip_prefix("core").unwrap_or(inside);
-                let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
-                let module = first.trim_end_matches(".rs").to_owned();
-                let text = std::fs::read_to_string(&path).unwrap();
-                found.push((path, module, text));
+    for (krate, _) in BUILT_ON {
+        let root = folder(krate);
+        let mut folders = vec![root.clone()];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                if path.is_dir() {
+                    // Another package.
+                    folders.extend(Some(path).filter(|path| !path.join("Cargo.toml").exists()));
+                } else if path.extension().is_some_and(|ending| ending == "rs") {
+                    let inside = path.strip_prefix(&root).unwrap().with_extension("").to_str().unwrap().to_owned();
+                    let text = std::fs::read_to_string(&path).unwrap();
+                    found.push(SourceFile { path, krate, inside, text });
+                }
             }
         }
     }
     found
 }
 
-fn floor_of() -> BTreeMap<&'static str, usize> {
-    FLOORS.iter().enumerate().flat_map(|(floor, modules)| modules.iter().map(move |&module| (module, floor))).collect()
+/// The names in the table of dependencies of a crate's manifest.
+fn dependencies(krate: &str) -> Vec<String> {
+    let manifest = std::fs::read_to_string(folder(krate).join("Cargo.toml")).unwrap();
+    let table = manifest.split("[dependencies]\n").nth(1).unwrap().split("\n[dev-dependencies]").next().unwrap();
+    let names = table.lines().filter_map(|line| line.split([' ', '.', '=']).next());
+    names.filter(|name| !name.is_empty() && !name.starts_with(['#', '['])).map(str::to_owned).collect()
 }
 
 /// Names that follow `needle` in code, comments left out.
@@ -103,23 +148,35 @@ fn names_after(text: &str, needle: &str) -> Vec<String> {
 }
 
 #[test]
+fn a_crate_is_built_only_on_those_below() {
+    for (krate, below) in BUILT_ON {
+        let names = dependencies(krate);
+        let own: Vec<&str> = names.iter().filter_map(|name| name.strip_prefix("ferry-")).collect();
+        assert_eq!(own, below, "ferry-{krate}");
+    }
+    for name in dependencies("core") {
+        assert!(!NOT_IN_CORE.iter().any(|banned| name.starts_with(banned)), "ferry-core depends on {name}");
+    }
+}
+
+#[test]
 fn a_module_imports_only_from_floors_below() {
-    let floors = floor_of();
     let mut seen = 0;
-    for (path, module, text) in sources() {
-        let own = floors.get(module.as_str()).unwrap_or_else(|| panic!("{module} has no floor"));
-        if module == "lib" || module == "main" {
-            continue;
-        }
-        let imports = ["crate::", "ferry_core::"].map(|from| names_after(&text, from));
-        for imported in imports.concat() {
-            assert!(!imported.is_empty(), "{path:?}: write one `use crate::module` a module");
-            if imported == module {
+    for (krate, floors) in FLOORS {
+        let floor_of = |module: &str| floors.iter().position(|floor| floor.contains(&module));
+        for source in sources().iter().filter(|source| source.krate == krate) {
+            let SourceFile { path, text, .. } = source;
+            let module = source.module();
+            if module == "lib" || module == "main" {
                 continue;
             }
-            seen += 1;
-            let other = floors.get(imported.as_str()).unwrap_or_else(|| panic!("{path:?} imports {imported:?}"));
-            assert!(other < own, "{path:?}: {module} (floor {own}) imports {imported} (floor {other})");
+            let own = floor_of(module).unwrap_or_else(|| panic!("{krate}: {module} has no floor"));
+            for imported in names_after(text, "crate::").into_iter().filter(|imported| imported != module) {
+                assert!(!imported.is_empty(), "{path:?}: write one `use crate::module` a module");
+                seen += 1;
+                let other = floor_of(&imported).unwrap_or_else(|| panic!("{path:?} imports {imported:?}"));
+                assert!(other < own, "{path:?}: {module} (floor {own}) imports {imported} (floor {other})");
+            }
         }
     }
     assert!(seen > 100, "the walk found only {seen} imports");
@@ -127,7 +184,7 @@ fn a_module_imports_only_from_floors_below() {
 
 #[test]
 fn no_file_is_long() {
-    for (path, _, text) in sources() {
+    for SourceFile { path, text, .. } in sources() {
         let lines = text.lines().count();
         assert!(lines <= LINES_MOST, "{path:?} has {lines} lines");
     }
@@ -135,19 +192,24 @@ fn no_file_is_long() {
 
 #[test]
 fn confined_crates_stay_in_their_modules() {
-    for (path, module, text) in sources() {
+    for source in sources() {
+        let SourceFile { path, krate, text, .. } = &source;
         for (name, homes) in CONFINED {
-            let used = !names_after(&text, &format!("{name}::")).is_empty();
-            assert!(!used || homes.contains(&module.as_str()), "{path:?} uses {name}");
+            let used = !names_after(text, &format!("{name}::")).is_empty();
+            assert!(!used || homes.contains(&source.module()), "{path:?} uses {name}");
         }
+        let seen = names_after(text, "ferry_core::");
+        let banned = seen.iter().find(|name| *krate == "camera" && NOT_IN_CAMERA.contains(&name.as_str()));
+        assert!(banned.is_none(), "{path:?} imports {banned:?}");
     }
 }
 
 #[test]
 fn sockets_and_bodies_of_clients_are_read_in_one_place() {
     let (mut homes, mut handlers) = (0, 0);
-    for (path, _, text) in sources().into_iter().filter(|(_, module, _)| module == "http") {
-        let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    for source in sources().iter().filter(|source| source.module() == "http") {
+        let path = &source.path;
+        let code = source.code();
         let code: Vec<&str> = code.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
         for (part, home) in IN_ONE_FILE {
             let has = code.iter().any(|line| line.contains(part));
@@ -172,17 +234,12 @@ fn sockets_and_bodies_of_clients_are_read_in_one_place() {
 }
 
 #[test]
-fn nothing_below_session_reads_a_clock_a_global_a_file_or_an_unseeded_generator() {
-    let floors = floor_of();
-    for (path, module, text) in sources() {
-        if floors[module.as_str()] > 7 || ["files", "faults"].contains(&module.as_str()) {
-            continue;
-        }
+fn nothing_in_the_core_reads_a_clock_a_global_a_file_or_an_unseeded_generator() {
+    for source in sources().iter().filter(|source| source.krate == "core") {
         // Tests may measure; modules of tests close their files.
-        let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
-        let is_test = path.file_name().unwrap().to_str().unwrap().contains("test");
+        let is_test = source.inside.contains("test");
         for impure in IMPURE {
-            assert!(is_test || !code.contains(impure), "{path:?} uses {impure}");
+            assert!(is_test || !source.code().contains(impure), "{:?} uses {impure}", source.path);
         }
     }
 }
