@@ -15,7 +15,6 @@ mod event;
 mod jobs;
 mod layers;
 mod lumen;
-mod magnetics;
 mod maps;
 mod parse;
 mod policies;
@@ -32,18 +31,14 @@ mod typescript;
 mod workspace;
 
 pub use challenges::{
-    AttemptAnswer, AttemptMessage, AttemptQuery, AttemptReport, AttemptScore, AttemptStanding, BoardEntry,
-    ChallengeReport, ChallengeSummary, Challenges, DifficultyName, GhostMessage, Ghosts, LossMessage, MishapKind,
-    MishapMessage, Period, TraceMessage,
+    AttemptAnswer, AttemptQuery, AttemptReport, AttemptStanding, BoardEntry, ChallengeReport, ChallengeSummary,
+    Challenges, GhostMessage, Ghosts, MishapMessage, Period, TraceMessage,
 };
 pub use client::ClientMessage;
 pub use comparison::{Branch, ComparisonMessage, MomentMessage};
 pub use conversation::{Conversation, Outgoing};
 pub use error::ErrorMessage;
-pub use evaluations::{
-    Cell, EvaluationCell, EvaluationFailure, EvaluationQuery, EvaluationReport, EvaluationSummary, Evaluations,
-    PaperRow,
-};
+pub use evaluations::{Cell, EvaluationCell, EvaluationFailure, EvaluationReport, EvaluationSummary, Evaluations};
 pub use event::EventMessage;
 pub use ferry_core::schema::{Numbers3, Numbers6, Rows3};
 pub use jobs::JobStage;
@@ -52,7 +47,6 @@ pub use layers::{
     SeenMessage, SensedObstacle, ValueCell, ValueMap, ValueQuery,
 };
 pub use lumen::{Lumen, WallRing};
-pub use magnetics::{Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery};
 pub use maps::{MapCheck, MapFacts, MapReport, NarrowPlace};
 pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};
@@ -62,10 +56,10 @@ pub use robot::{RobotClient, RobotRefusal, RobotStanding, TwinStanding};
 pub use server::{CaseSummary, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
 pub use tracker::{GoalPlace, TrackerEstimate};
 pub use trainings::{
-    EpisodeEnding, Examination, FusionName, RecipeName, TrainingCells, TrainingEpisode, TrainingFrame, TrainingMessage,
-    TrainingPoint, TrainingQuery, TrainingReport, TrainingSettings, TrainingStage, TrainingSummary, Trainings,
+    Examination, TrainingCells, TrainingFrame, TrainingMessage, TrainingPoint, TrainingReport, TrainingStage,
+    TrainingSummary, Trainings,
 };
-pub use workspace::{ManipulabilityMap, WorkspaceMap, WorkspaceQuery};
+pub use workspace::{WorkspaceMap, WorkspaceQuery};
 
 /// Protocol version. Increase it when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 6;

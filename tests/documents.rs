@@ -60,7 +60,7 @@ fn the_readme_counts_what_the_code_has() {
     let compared = text("server/cli/recovery.rs");
     assert_eq!(between(&compared, "default_value = \"rl,", "\")").split(',').count() + 1, controllers.len());
     states("README.md", &format!("Choose one of {} controllers at any time: {}", WORDS[3], controllers.join(", ")));
-    let timeline = text("server/session/timeline.rs");
+    let timeline = text("server/core/session/timeline.rs");
     let moments: usize = between(&timeline, "const MOST: usize = ", ";").parse().unwrap();
     states("README.md", &format!("go back up to {} minutes", WORDS[moments / (4 * 60)]));
     states("README.md", &format!("a {:.0} mm magnetic bead", 2e3 * BEAD_RADIUS_M));

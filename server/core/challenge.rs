@@ -31,7 +31,11 @@ const DRAWS: u64 = 500;
 /// Characters of the part of a name from which everything random follows.
 const SEED_MOST: usize = 24;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = DifficultyName))]
+#[cfg_attr(feature = "schema", ts(rename = "DifficultyName", rename_all = "snake_case"))]
+#[serde(rename_all = "snake_case")]
 pub enum Difficulty {
     /// Posts, nothing disturbs.
     Easy,

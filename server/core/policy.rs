@@ -19,7 +19,7 @@ use crate::perception::{OBSERVATION_SIZE_PX, Observation};
 
 pub use file::{MAX_BYTES, Manifest, PolicyError, weights};
 pub use lattice::{Cell, Lattice, neighbours};
-pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, TensorSpec};
+pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, TensorSpec, builder};
 pub use policies::{Policies, Shipped};
 use survey::Plan;
 pub use survey::{Survey, SurveyParts};

@@ -1,5 +1,5 @@
-//! A laboratory session as a state machine: commands and times in, messages out. It has no thread, clock or channel;
-//! whoever holds it tells the time, as the duration since any fixed moment.
+//! A laboratory session as a state machine: commands and times in, messages out. It has no thread, clock or channel. Its
+//! caller passes the time, as the duration since any fixed moment.
 //!
 //! [`Session::apply`] carries out a command. [`Session::advance`] makes the next tick if it is due. Both leave messages,
 //! which [`Session::take_messages`] returns. [`Session::view`] is what viewers see.
@@ -99,7 +99,7 @@ pub struct Kept {
     pub parameters: bool,
 }
 
-/// What a session says to whoever holds it.
+/// What a session says to its caller.
 #[derive(Clone, Debug)]
 pub enum Message {
     /// Something has happened.

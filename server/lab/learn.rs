@@ -39,8 +39,8 @@ pub use survey::{MazeLattice, SurveyRecipe, SurveyRun, examine as examine_survey
 pub use terrain::{MOST_TERRAINS, Terrain, TerrainError, wall_waves_m};
 pub use training::State;
 pub use trainings::{
-    Cells, Frame, Origin, QueryError, Settings, Status, SubmitTrainingError, Trail, Training, TrainingQuery,
-    TrainingStage, Trainings,
+    Cells, Frame, FusionName, Origin, QueryError, Settings, Status, SubmitTrainingError, Trail, Training,
+    TrainingQuery, TrainingStage, Trainings,
 };
 
 /// Git revision of the working tree, marked if it has changes; outside a repository, the program's version.

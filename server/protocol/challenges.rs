@@ -10,24 +10,11 @@ use crate::boards::{Entry, Signature};
 use ferry_core::challenge::{
     Attempt, Challenge, ChallengeName, Difficulty, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
 };
-use ferry_core::geometry::Point2;
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::Numbers2;
 use ferry_core::session::{Ended, Played, Standing};
-use ferry_core::trial::Case;
 
-pub use ghosts::{GhostMessage, Ghosts, MishapKind, MishapMessage, TraceMessage};
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum DifficultyName {
-    /// Posts, nothing disturbs.
-    Easy,
-    /// The colon.
-    Medium,
-    /// The colon with folds; the bead is moved away twice.
-    Hard,
-}
+pub use ghosts::{GhostMessage, Ghosts, MishapMessage, TraceMessage};
 
 /// How long a challenge is offered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
@@ -37,19 +24,6 @@ pub enum Period {
     Week,
 }
 
-/// What counts in an attempt: less is better.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub struct AttemptScore {
-    /// Tick of the delivery.
-    #[ts(type = "number")]
-    pub tick: u64,
-    /// How many times a wall stopped the tool.
-    pub walls: u32,
-    /// How many beads were lost without a disturbance.
-    pub lost_beads: u32,
-}
-
 /// A line of a board.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct BoardEntry {
@@ -57,7 +31,7 @@ pub struct BoardEntry {
     pub class: Option<String>,
     /// UTC, RFC 3339.
     pub at: String,
-    pub score: AttemptScore,
+    pub score: Score,
     /// Seconds until the delivery, with the penalties.
     pub total_s: f64,
 }
@@ -65,7 +39,7 @@ pub struct BoardEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct ChallengeSummary {
     pub name: String,
-    pub difficulty: DifficultyName,
+    pub difficulty: Difficulty,
     /// `null` for one that is not offered today.
     pub period: Option<Period>,
     /// People on its board.
@@ -84,7 +58,7 @@ pub struct Challenges {
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct ChallengeReport {
     pub name: String,
-    pub difficulty: DifficultyName,
+    pub difficulty: Difficulty,
     pub map: String,
     /// Start of the bead.
     #[schema(value_type = Numbers2)]
@@ -105,44 +79,17 @@ pub struct ChallengeReport {
     pub board: Vec<BoardEntry>,
 }
 
-/// The part of an attempt in which it lost the most time, compared with the fastest ghost.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
-pub struct LossMessage {
-    #[ts(type = "number")]
-    pub from_tick: u64,
-    #[ts(type = "number")]
-    pub to_tick: u64,
-    /// The bead at `from_tick`.
-    #[schema(value_type = Numbers2)]
-    pub place_m: [f64; 2],
-    pub lost_s: f64,
-    pub walls: u32,
-    pub lost_beads: u32,
-    pub disturbances: u32,
-}
-
-/// An input log with its claim.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub struct AttemptMessage {
-    #[ts(type = "unknown")]
-    pub log: Case,
-    pub score: AttemptScore,
-    /// Hash of the world at the tick of the delivery, 16 hexadecimal digits.
-    pub world_hash: String,
-}
-
 /// Answer of `GET /api/sessions/{id}/attempt`.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct AttemptReport {
     pub challenge: String,
     /// Shortest path that the bead still has.
     pub remaining_m: f64,
-    pub loss: Option<LossMessage>,
+    pub loss: Option<Loss>,
     /// Whom the loss is compared with; `null` for the tool's speed: no controller delivered, or the bead is moved away.
     pub compared_with: Option<ControllerName>,
     /// What `POST /api/challenges/{name}/attempts` takes; `null` without a delivery.
-    pub attempt: Option<AttemptMessage>,
+    pub attempt: Option<Attempt>,
 }
 
 /// Body of `POST /api/challenges/{name}/attempts`.
@@ -162,7 +109,7 @@ pub struct AttemptQuery {
     #[ts(optional)]
     #[schema(min_length = 1, max_length = 24)]
     pub class: Option<String>,
-    pub attempt: AttemptMessage,
+    pub attempt: Attempt,
 }
 
 /// Answer of `POST /api/challenges/{name}/attempts`.
@@ -191,51 +138,10 @@ pub struct AttemptStanding {
     pub void: Option<String>,
 }
 
-fn pair(point: Point2<f64>) -> [f64; 2] {
-    point.coords.into()
-}
-
-impl From<Difficulty> for DifficultyName {
-    fn from(difficulty: Difficulty) -> Self {
-        match difficulty {
-            Difficulty::Easy => Self::Easy,
-            Difficulty::Medium => Self::Medium,
-            Difficulty::Hard => Self::Hard,
-        }
-    }
-}
-
-impl From<Score> for AttemptScore {
-    fn from(Score { tick, walls, lost_beads }: Score) -> Self {
-        Self { tick, walls, lost_beads }
-    }
-}
-
-impl From<&Attempt> for AttemptMessage {
-    fn from(attempt: &Attempt) -> Self {
-        let Attempt { log, score, world_hash } = attempt.clone();
-        Self { log, score: score.into(), world_hash }
-    }
-}
-
-impl From<AttemptMessage> for Attempt {
-    fn from(message: AttemptMessage) -> Self {
-        let AttemptMessage { log, score: AttemptScore { tick, walls, lost_beads }, world_hash } = message;
-        Self { log, score: Score { tick, walls, lost_beads }, world_hash }
-    }
-}
-
 impl From<&Entry> for BoardEntry {
     fn from(entry: &Entry) -> Self {
         let Signature { player, class, at } = entry.signature.clone();
-        Self { player, class, at, score: entry.score.into(), total_s: entry.score.total_s() }
-    }
-}
-
-impl From<&Loss> for LossMessage {
-    fn from(loss: &Loss) -> Self {
-        let &Loss { from_tick, to_tick, place_m, lost_s, walls, lost_beads, disturbances } = loss;
-        Self { from_tick, to_tick, place_m: pair(place_m), lost_s, walls, lost_beads, disturbances }
+        Self { player, class, at, score: entry.score, total_s: entry.score.total_s() }
     }
 }
 
@@ -257,7 +163,7 @@ impl ChallengeSummary {
     pub fn of(name: &ChallengeName, period: Option<Period>, board: &[Entry]) -> Self {
         Self {
             name: name.to_string(),
-            difficulty: name.difficulty.into(),
+            difficulty: name.difficulty,
             period,
             entries: board.len(),
             best: board.first().map(BoardEntry::from),
@@ -271,10 +177,10 @@ impl ChallengeReport {
         let scenario = &challenge.scenario;
         Self {
             name: challenge.name.to_string(),
-            difficulty: challenge.name.difficulty.into(),
+            difficulty: challenge.name.difficulty,
             map: scenario.map.clone(),
-            start_m: scenario.start_m.map_or([0.0; 2], pair),
-            goal_m: scenario.goal_m.map_or([0.0; 2], pair),
+            start_m: scenario.start_m.map_or([0.0; 2], |place| place.coords.into()),
+            goal_m: scenario.goal_m.map_or([0.0; 2], |place| place.coords.into()),
             path_m: challenge.path_m,
             disturbances: scenario.disturbances,
             time_limit_s: TIME_LIMIT_S,
@@ -298,10 +204,10 @@ impl AttemptReport {
         Self {
             challenge: challenge.name.to_string(),
             remaining_m: bead.map_or(challenge.path_m, |bead| challenge.remaining_m(bead)),
-            loss: challenge.loss(trace, fastest.map(|ghost| &ghost.trace)).as_ref().map(LossMessage::from),
+            loss: challenge.loss(trace, fastest.map(|ghost| &ghost.trace)),
             compared_with: fastest.map(|ghost| ghost.controller),
             attempt: match ended {
-                Some(Ended::Delivered(attempt)) => Some(AttemptMessage::from(&**attempt)),
+                Some(Ended::Delivered(attempt)) => Some(Attempt::clone(attempt)),
                 Some(Ended::TimeUp) | None => None,
             },
         }

@@ -3,57 +3,12 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
-use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
 use super::jobs::JobStage;
-use ferry_core::scenario::{ControllerName, RlPolicy};
+use ferry_core::scenario::ControllerName;
 use ferry_core::schema::Numbers2;
-use ferry_lab::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row, Setting, Variation};
+use ferry_lab::evaluate::{self, Comparison, Evaluation, EvaluationQuery, Failure, PaperRow, Progress, Row, Setting};
 use ferry_lab::jobs::Stage;
-
-/// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
-/// same starts, goals and seeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub struct EvaluationQuery {
-    /// Sub-controllers 2.
-    #[schema(value_type = std::collections::BTreeSet<ControllerName>, min_items = 1)]
-    pub controllers: Vec<ControllerName>,
-    /// Names of maps, shipped or added.
-    #[schema(value_type = std::collections::BTreeSet<String>, min_items = 1, example = json!(["posts"]))]
-    pub maps: Vec<String>,
-    /// Scripted disturbances per trial, 0 to 10.
-    #[schema(schema_with = disturbances)]
-    pub disturbances: Vec<u32>,
-    /// Trials per cell, 1 to 1000.
-    #[schema(minimum = 1, maximum = 1000)]
-    pub episodes: u32,
-    /// Seed of the trials.
-    #[ts(type = "number")]
-    pub seed: u64,
-    /// Policy of the controller `rl`, as the parameter `rl_policy`.
-    #[serde(default)]
-    #[ts(type = "string")]
-    #[schema(value_type = String, example = "auto")]
-    pub rl_policy: RlPolicy,
-    /// Name of a connected program, with the controller `program`.
-    #[serde(default)]
-    pub program: Option<String>,
-    /// Parameters that take several values, at most two. Each combination has its cells.
-    #[serde(default)]
-    #[schema(max_items = 2)]
-    pub vary: Vec<Variation>,
-}
-
-/// The derive has no limits for the items of a list.
-fn disturbances() -> Array {
-    let count = ObjectBuilder::new()
-        .schema_type(Type::Integer)
-        .minimum(Some(*DISTURBANCES.start()))
-        .maximum(Some(*DISTURBANCES.end()));
-    let about = "Scripted disturbances per trial, 0 to 10.";
-    ArrayBuilder::new().items(count).unique_items(true).min_items(Some(1)).description(Some(about)).build()
-}
 
 /// The subject of one row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -67,26 +22,6 @@ pub struct Cell {
     pub program: Option<String>,
     /// What varied parameters are in this cell.
     pub varied: Vec<Setting>,
-}
-
-/// The paper's numbers for a row.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
-pub struct PaperRow {
-    /// Source in the paper.
-    pub section: String,
-    pub episodes: u32,
-    /// Trials whose tool reached the goal.
-    pub successes: u32,
-    /// Wilson 95 % interval of `successes / episodes`.
-    #[schema(value_type = Numbers2)]
-    pub successes_wilson95: [f64; 2],
-    pub printed: String,
-    /// Mean tracking error in both axes.
-    pub tracking_error_mean_m: Option<f64>,
-    /// Mean over trials of the largest in x.
-    pub tracking_error_max_x_m: Option<f64>,
-    /// The same in y.
-    pub tracking_error_max_y_m: Option<f64>,
 }
 
 /// A cell of an evaluation with its progress.
@@ -181,12 +116,12 @@ impl EvaluationSummary {
         let cells = evaluation.cells.iter().cloned().zip(&progress.cells);
         Self {
             id: evaluation.id.clone(),
-            query: evaluation.query.clone().into(),
+            query: evaluation.query.clone(),
             stage,
             message,
             cells: cells
                 .map(|(cell, at)| EvaluationCell {
-                    paper: evaluate::PaperRow::of(&cell).map(Into::into),
+                    paper: PaperRow::of(&cell),
                     cell: cell.into(),
                     done: at.done,
                     delivered: at.delivered,
@@ -235,49 +170,9 @@ impl EvaluationFailure {
     }
 }
 
-impl From<EvaluationQuery> for evaluate::EvaluationQuery {
-    fn from(value: EvaluationQuery) -> Self {
-        let EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy, program, vary } = value;
-        Self { controllers, maps, disturbances, episodes, seed, rl_policy, program, vary }
-    }
-}
-
-impl From<evaluate::EvaluationQuery> for EvaluationQuery {
-    fn from(value: evaluate::EvaluationQuery) -> Self {
-        let evaluate::EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy, program, vary } =
-            value;
-        Self { controllers, maps, disturbances, episodes, seed, rl_policy, program, vary }
-    }
-}
-
 impl From<evaluate::Cell> for Cell {
     fn from(value: evaluate::Cell) -> Self {
         let evaluate::Cell { controller, map, disturbances, program, varied } = value;
         Self { controller, map, disturbances, program, varied }
-    }
-}
-
-impl From<evaluate::PaperRow> for PaperRow {
-    fn from(value: evaluate::PaperRow) -> Self {
-        let evaluate::PaperRow {
-            section,
-            episodes,
-            successes,
-            successes_wilson95,
-            printed,
-            tracking_error_mean_m,
-            tracking_error_max_x_m,
-            tracking_error_max_y_m,
-        } = value;
-        Self {
-            section,
-            episodes,
-            successes,
-            successes_wilson95,
-            printed,
-            tracking_error_mean_m,
-            tracking_error_max_x_m,
-            tracking_error_max_y_m,
-        }
     }
 }

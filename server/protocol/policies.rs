@@ -4,11 +4,10 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::trainings::{Examination, TrainingPoint, TrainingQuery};
+use super::trainings::{Examination, TrainingPoint};
 use ferry_core::policy::{Manifest, Policies as _, Policy};
 use ferry_core::scenario::RlPolicy;
-use ferry_lab::learn;
-use ferry_lab::learn::{Added, Library};
+use ferry_lab::learn::{self, Added, Library, TrainingQuery};
 
 /// How a policy was trained on this server.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -85,7 +84,7 @@ impl From<learn::Origin> for PolicyOrigin {
     fn from(origin: learn::Origin) -> Self {
         let learn::Origin { query, examined, elapsed_s, curve } = origin;
         Self {
-            query: query.into(),
+            query,
             examined: Examination::from(&examined),
             elapsed_s,
             curve: curve.iter().map(TrainingPoint::from).collect(),

@@ -1,7 +1,5 @@
 //! Trainings: policies that learn a map, as jobs in the background.
 
-mod query;
-
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -11,9 +9,7 @@ use utoipa::ToSchema;
 use ferry_core::schema::Numbers2;
 use ferry_lab::evaluate::wilson95;
 use ferry_lab::learn::sweep::STEP_M;
-use ferry_lab::learn::{self, Ending, Frame, Marks, Point, Status, Training};
-
-pub use query::{FusionName, RecipeName, TrainingQuery, TrainingSettings};
+use ferry_lab::learn::{self, Ending, Frame, Marks, Point, Status, Trail, Training, TrainingQuery};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
@@ -143,23 +139,6 @@ pub struct TrainingCells {
     pub steps: Vec<Option<u16>>,
 }
 
-/// How an episode ends, or would end if it began at a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EpisodeEnding {
-    Reached,
-    Collided,
-    TimedOut,
-}
-
-/// An episode as the cells that the tool visits.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
-pub struct TrainingEpisode {
-    /// Indices of cells.
-    pub cells: Vec<u16>,
-    pub ending: EpisodeEnding,
-}
-
 /// A value map of a training: what its network thinks after a number of updates.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct TrainingFrame {
@@ -173,13 +152,13 @@ pub struct TrainingFrame {
     #[schema(value_type = Vec<Vec<f32>>)]
     pub quantiles: Vec<[f32; 5]>,
     /// How an episode without exploration ends that begins at the cell.
-    pub endings: Vec<EpisodeEnding>,
+    pub endings: Vec<Ending>,
     /// Spearman’s rank correlation of the values with the distances, over all cells outside the goal; `null` if all values are equal.
     pub rank_correlation: Option<f64>,
     /// Episodes to the goal without exploration.
-    pub greedy: Vec<TrainingEpisode>,
+    pub greedy: Vec<Trail>,
     /// Episodes to the goal with exploration, from the same starts.
-    pub exploring: Vec<TrainingEpisode>,
+    pub exploring: Vec<Trail>,
 }
 
 /// Number of digits after the point: a value map of a thousand cells is sent as text.
@@ -231,7 +210,7 @@ impl TrainingSummary {
         let newest = || status.points.iter().rev().find_map(|point| point.examined);
         Self {
             id: training.id.clone(),
-            query: training.query.clone().into(),
+            query: training.query.clone(),
             stage,
             message,
             updates: last.map_or(0, |point| point.update),
@@ -284,22 +263,6 @@ impl From<&learn::Cells> for TrainingCells {
     }
 }
 
-impl From<Ending> for EpisodeEnding {
-    fn from(ending: Ending) -> Self {
-        match ending {
-            Ending::Reached => Self::Reached,
-            Ending::Collided => Self::Collided,
-            Ending::TimedOut => Self::TimedOut,
-        }
-    }
-}
-
-impl From<&learn::Trail> for TrainingEpisode {
-    fn from(trail: &learn::Trail) -> Self {
-        Self { cells: trail.cells.clone(), ending: trail.ending.into() }
-    }
-}
-
 impl From<&learn::Frame> for TrainingFrame {
     fn from(frame: &learn::Frame) -> Self {
         Self {
@@ -307,10 +270,10 @@ impl From<&learn::Frame> for TrainingFrame {
             values: frame.values.iter().copied().map(rounded).collect(),
             actions: frame.actions.clone(),
             quantiles: frame.quantiles.iter().map(|row| row.map(rounded)).collect(),
-            endings: frame.endings.iter().copied().map(EpisodeEnding::from).collect(),
+            endings: frame.endings.clone(),
             rank_correlation: frame.rank_correlation,
-            greedy: frame.greedy.iter().map(TrainingEpisode::from).collect(),
-            exploring: frame.exploring.iter().map(TrainingEpisode::from).collect(),
+            greedy: frame.greedy.clone(),
+            exploring: frame.exploring.clone(),
         }
     }
 }

@@ -11,10 +11,13 @@ use ts_rs::{Config, TS};
 
 use super::*;
 use ferry_camera::VIEW_PX;
+use ferry_core::challenge::{Attempt, Difficulty, Loss, Mishap, Score};
 use ferry_core::control::CONTROL_PERIOD_S;
 use ferry_core::control::transport::errt::MOST_EDGES;
 use ferry_core::geometry::{Polygon, Rect};
+use ferry_core::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
 use ferry_core::magnetics::force::FARTHEST_M;
+use ferry_core::magnetics::plane::{Plane, PlaneQuery};
 use ferry_core::map::{MAX_SVG_BYTES, Map, WALL_HEIGHT_M};
 use ferry_core::perception::{OBSERVATION_SIZE_PX, OBSTACLE_MEAN};
 use ferry_core::plant::PositionerKind;
@@ -24,8 +27,8 @@ use ferry_core::scenario::{
 };
 use ferry_core::session::SPEED_MAX;
 use ferry_core::trial::{EventKind, GOAL_RADIUS_M};
-use ferry_lab::evaluate::{Comparison, PairedMean, Row, Setting, Variation};
-use ferry_lab::learn::Recipe;
+use ferry_lab::evaluate::{Comparison, EvaluationQuery, PairedMean, PaperRow, Row, Setting, Variation};
+use ferry_lab::learn::{Ending, FusionName, Recipe, RecipeName, Settings, Trail, TrainingQuery};
 use ferry_lab::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
 
 const HEADER: &str =
@@ -183,7 +186,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 18] {
             declared![
                 RecipeName,
                 FusionName,
-                TrainingSettings,
+                Settings,
                 TrainingQuery,
                 TrainingStage,
                 Examination,
@@ -193,28 +196,28 @@ fn modules() -> [(&'static str, Vec<Declaration>); 18] {
                 Trainings,
                 TrainingMessage,
                 TrainingCells,
-                EpisodeEnding,
-                TrainingEpisode,
+                Ending,
+                Trail,
                 TrainingFrame,
             ],
         ),
         (
             "challenges",
             declared![
-                DifficultyName,
+                Difficulty,
                 Period,
-                AttemptScore,
+                Score,
                 BoardEntry,
                 ChallengeSummary,
                 Challenges,
                 ChallengeReport,
-                MishapKind,
+                Mishap,
                 MishapMessage,
                 TraceMessage,
                 GhostMessage,
                 Ghosts,
-                LossMessage,
-                AttemptMessage,
+                Loss,
+                Attempt,
                 AttemptReport,
                 AttemptQuery,
                 AttemptAnswer,

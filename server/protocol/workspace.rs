@@ -6,8 +6,7 @@ use utoipa::ToSchema;
 
 use ferry_core::geometry::Rect;
 use ferry_core::plant::ToolOrientation;
-use ferry_core::robot::workspace;
-use ferry_core::schema::Numbers2;
+use ferry_core::robot::workspace::ManipulabilityMap;
 
 /// Body of `POST /api/kinematics/workspace`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -36,28 +35,4 @@ pub struct WorkspaceMap {
     pub map: ManipulabilityMap,
     /// Poses with less are refused as singular.
     pub least_m3: f64,
-}
-
-/// Manipulability over a plane, in square cells.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
-pub struct ManipulabilityMap {
-    /// Cells along x.
-    pub columns: usize,
-    /// Cells along y.
-    pub rows: usize,
-    /// Lower left corner of the lower left cell, `[x_m, y_m]`.
-    #[schema(value_type = Numbers2)]
-    pub origin_m: [f64; 2],
-    /// Side of a cell.
-    pub cell_m: f64,
-    /// |det J| in m³ with the flange over each cell's centre, row by row from the lower left; `None`
-    /// where the branch does not reach. `rows × columns` values.
-    pub manipulability_m3: Vec<Option<f64>>,
-}
-
-impl From<workspace::ManipulabilityMap> for ManipulabilityMap {
-    fn from(value: workspace::ManipulabilityMap) -> Self {
-        let workspace::ManipulabilityMap { columns, rows, origin_m, cell_m, manipulability_m3 } = value;
-        Self { columns, rows, origin_m, cell_m, manipulability_m3 }
-    }
 }

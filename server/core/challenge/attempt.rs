@@ -10,11 +10,15 @@ use crate::trial::{Case, Input, InputError, Source, TickRecord, Timed, Trial, Tr
 /// Largest number of inputs: sixty a second until the time limit, and as many again.
 pub const INPUTS_MOST: usize = 2 * 60 * TIME_LIMIT_S as usize;
 
-/// A log with its claim.
+/// An input log with its claim.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = AttemptMessage))]
+#[cfg_attr(feature = "schema", ts(rename = "AttemptMessage"))]
 #[serde(deny_unknown_fields)]
 pub struct Attempt {
-    /// Scenario and inputs; without a drawing and an expectation.
+    // Without a drawing and an expectation.
+    #[cfg_attr(feature = "schema", ts(type = "unknown"))]
     pub log: Case,
     pub score: Score,
     /// Hash of the world at the tick of the delivery, 16 hexadecimal digits.

@@ -19,14 +19,20 @@ const SAME_PLACE_M: f64 = 0.01;
 /// A smaller loss is not worth a word.
 const LEAST_S: f64 = 1.0;
 
-/// The part of a run in which it lost the most time.
+/// The part of an attempt in which it lost the most time, compared with the fastest ghost.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = LossMessage))]
+#[cfg_attr(feature = "schema", ts(rename = "LossMessage"))]
 pub struct Loss {
+    #[cfg_attr(feature = "schema", ts(type = "number"))]
     pub from_tick: u64,
+    #[cfg_attr(feature = "schema", ts(type = "number"))]
     pub to_tick: u64,
-    /// Where the bead was for most of this time.
+    /// The bead at `from_tick`.
+    #[cfg_attr(feature = "schema", ts(type = "[number, number]"))]
+    #[cfg_attr(feature = "schema", schema(value_type = crate::schema::Numbers2))]
     pub place_m: Point2<f64>,
-    /// Duration for this part of the path beyond the other run's, or beyond that at the tool's speed.
     pub lost_s: f64,
     pub walls: u32,
     pub lost_beads: u32,

@@ -15,11 +15,15 @@ pub const LOST_BEAD_S: f64 = 5.0;
 /// Ticks between two samples: .2 s.
 pub const SAMPLE_TICKS: u64 = 25;
 
-/// What counts: less is better.
+/// What counts in an attempt: less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = AttemptScore))]
+#[cfg_attr(feature = "schema", ts(rename = "AttemptScore"))]
 #[serde(deny_unknown_fields)]
 pub struct Score {
     /// Tick of the delivery.
+    #[cfg_attr(feature = "schema", ts(type = "number"))]
     pub tick: u64,
     /// How many times a wall stopped the tool.
     pub walls: u32,
@@ -41,8 +45,10 @@ pub struct Sample {
     pub bead_m: Point2<f64>,
 }
 
-/// Something that costs time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = MishapKind))]
+#[cfg_attr(feature = "schema", ts(rename = "MishapKind", rename_all = "snake_case"))]
 #[serde(rename_all = "snake_case")]
 pub enum Mishap {
     /// A wall stopped the tool.

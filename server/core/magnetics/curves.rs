@@ -8,7 +8,11 @@ use super::{
     dipole::{self, BLOCK_REMANENCE_T, SPHERE_DIAMETER_M},
     force::{self, FARTHEST_M, Orientation},
 };
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
+
+#[cfg(feature = "schema")]
+use crate::schema::Numbers2;
 
 /// Maximum number of points of a curve.
 pub const POINTS_LIMIT: u32 = 2000;
@@ -44,25 +48,42 @@ pub enum CurveError {
     },
 }
 
-/// Query of [`pull`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The derive does not accept constants as limits.
+#[cfg(feature = "schema")]
+fn direction() -> utoipa::openapi::schema::Object {
+    use utoipa::openapi::schema::{ObjectBuilder, Type};
+    let about = "Where the bead lies, from below the block's middle: along the block's x, turned toward its y.";
+    let number = ObjectBuilder::new().schema_type(Type::Number).description(Some(about));
+    number.minimum(Some(-TAU)).maximum(Some(TAU)).build()
+}
+
+/// Query of `pull`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
 pub struct PullQuery {
     /// Orientation of the block.
     pub orientation: Orientation,
     /// Its lower face above the table, m: at least the bead's diameter.
+    #[cfg_attr(feature = "schema", schema(minimum = 0.005, maximum = 0.5))]
     pub lower_face_height_m: f64,
     /// Direction of the bead from below the block's middle: from the block's x toward its y.
+    #[cfg_attr(feature = "schema", schema(schema_with = direction))]
     pub direction_rad: f64,
     /// Coulomb's coefficient.
+    #[cfg_attr(feature = "schema", schema(minimum = 0, maximum = 1000))]
     pub friction: f64,
     /// Maximum offset, m.
+    #[cfg_attr(feature = "schema", schema(minimum = 0, maximum = 0.5))]
     pub farthest_m: f64,
     /// Number of evenly spaced offsets, starting at zero.
+    #[cfg_attr(feature = "schema", schema(minimum = 2, maximum = 2000))]
     pub count: u32,
 }
 
 /// The pull on a bead over its horizontal offset; every array has one entry per offset.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 pub struct PullCurve {
     /// Offset from below the block's middle, m.
     pub offset_m: Vec<f64>,
@@ -77,7 +98,8 @@ pub struct PullCurve {
     /// Pull in the table's plane divided by the maximum friction, friction·(W − Fz): from 1 on the bead
     /// follows. `None` if there is no friction, because the coefficient is zero or the bead lifts off.
     pub drag_ratio: Vec<Option<f64>>,
-    /// Offsets `(inner_m, outer_m)` between which the bead is dragged, of [`force::capture_interval_m`].
+    /// Offsets `(inner_m, outer_m)` between which the bead is dragged, of `force::capture_interval_m`.
+    #[cfg_attr(feature = "schema", schema(value_type = Option<Numbers2>))]
     pub capture_m: Option<(f64, f64)>,
 }
 
@@ -105,31 +127,41 @@ pub fn pull(query: &PullQuery) -> Result<PullCurve, CurveError> {
     })
 }
 
-/// Query of [`reach`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Query of `reach`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
 pub struct ReachQuery {
     /// Orientation of the block.
     pub orientation: Orientation,
     /// Minimum height of its lower face above the table, m: at least the bead's diameter.
+    #[cfg_attr(feature = "schema", schema(minimum = 0.005, maximum = 0.5))]
     pub lowest_m: f64,
     /// Maximum height, m.
+    #[cfg_attr(feature = "schema", schema(minimum = 0.005, maximum = 0.5))]
     pub highest_m: f64,
     /// Direction of the bead from below the block's middle: from the block's x toward its y.
+    #[cfg_attr(feature = "schema", schema(schema_with = direction))]
     pub direction_rad: f64,
     /// Coulomb's coefficient.
+    #[cfg_attr(feature = "schema", schema(minimum = 0, maximum = 1000))]
     pub friction: f64,
     /// Viscous drag on the bead, N·s/m; not zero, since without drag the speed is unlimited.
+    #[cfg_attr(feature = "schema", schema(minimum = 0.000001, maximum = 1000))]
     pub drag_n_s_m: f64,
     /// Number of heights, evenly spaced.
+    #[cfg_attr(feature = "schema", schema(minimum = 2, maximum = 2000))]
     pub count: u32,
 }
 
 /// Reach and speed of the drag over the block's height; every array has one entry per height.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 pub struct ReachCurve {
     /// Lower face above the table, m.
     pub lower_face_height_m: Vec<f64>,
-    /// Offsets `(inner_m, outer_m)` between which a bead is dragged, of [`force::capture_interval_m`].
+    /// Offsets `(inner_m, outer_m)` between which a bead is dragged, of `force::capture_interval_m`.
+    #[cfg_attr(feature = "schema", schema(value_type = Vec<Option<Numbers2>>))]
     pub capture_m: Vec<Option<(f64, f64)>>,
     /// Fz/W right below the block's middle.
     pub lift_ratio: Vec<f64>,

@@ -1,32 +1,43 @@
 //! The field over the table around the block, to be drawn: |B| and the pull at the height of the bead's centre.
 
+use serde::{Deserialize, Serialize};
+
 use super::curves::{CurveError, in_range};
 use super::dipole::{self, BLOCK_REMANENCE_T, SPHERE_DIAMETER_M};
 use super::force::{self, FARTHEST_M, Orientation};
 use crate::geometry::Vector3;
+#[cfg(feature = "schema")]
+use crate::schema::Numbers2;
 
 /// Maximum number of points per row.
 pub const ROW_LIMIT: u32 = 101;
 
-/// Query of [`plane`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Query of `plane`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
 pub struct PlaneQuery {
     /// Orientation of the block.
     pub orientation: Orientation,
     /// Its lower face above the table, m: at least the bead's diameter.
+    #[cfg_attr(feature = "schema", schema(minimum = 0.005, maximum = 0.5))]
     pub lower_face_height_m: f64,
     /// Half side of the square around the point below the block's middle, m, along the block's x and y.
+    #[cfg_attr(feature = "schema", schema(minimum = 0.001, maximum = 0.5))]
     pub reach_m: f64,
     /// Number of points per row and column, evenly spaced, the first and last ones at the edges.
+    #[cfg_attr(feature = "schema", schema(minimum = 2, maximum = 101))]
     pub count: u32,
 }
 
 /// The field in a square around the block: one entry per point, row by row from the minimum x and y.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 pub struct Plane {
     /// |B|, T.
     pub field_t: Vec<f64>,
     /// Pull on the bead in the table's plane, N.
+    #[cfg_attr(feature = "schema", schema(value_type = Vec<Numbers2>))]
     pub pull_n: Vec<[f64; 2]>,
 }
 

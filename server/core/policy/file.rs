@@ -8,7 +8,7 @@ use rust_embed::RustEmbed;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::{Deserialize, Serialize};
 
-use super::network::{Architecture, Fusion, Network, TensorSpec};
+use super::network::{Architecture, Fusion, Network, TensorSpec, builder};
 use super::{OBSERVATION_SIZE_PX, Policy};
 
 /// Key of the manifest in the metadata.
@@ -203,9 +203,9 @@ impl Policy {
         if let Some(name) = file.names().into_iter().find(|name| specs.iter().all(|spec| spec.name != **name)) {
             return Err(PolicyError::Stray { name: name.to_owned() });
         }
-        let weights = specs.iter().map(|spec| Ok((spec.name.as_str(), read(&file, spec)?)));
+        let weights = specs.iter().map(|spec| Ok((spec.name.clone(), read(&file, spec)?)));
         let weights = weights.collect::<Result<HashMap<_, _>, PolicyError>>()?;
-        let network = Network::new(manifest.architecture, |name| Ok::<_, PolicyError>(weights[name].clone()))?;
+        let network = Network::new(manifest.architecture, &builder(weights))?;
         Ok(Self { manifest, network: Arc::new(network), hash: xxhash_rust::xxh3::xxh3_64(bytes) })
     }
 

@@ -1,6 +1,7 @@
 //! Fully connected layers, plain and noisy (Fortunato et al. 2018, "Noisy Networks for Exploration").
 
-use candle_core::{Device, Result, Tensor};
+use candle_core::{Device, Error, Result, Tensor};
+use candle_nn::VarBuilder;
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
@@ -25,6 +26,13 @@ pub(super) enum Input {
 }
 
 impl Linear {
+    /// # Errors Those of candle, for a missing weight.
+    pub fn new(weights: &VarBuilder<'_>, noisy: bool) -> Result<Self> {
+        let get = |name| weights.get_unchecked(name);
+        let sigma = noisy.then(|| Ok::<_, Error>((get("weight_sigma")?, get("bias_sigma")?))).transpose()?;
+        Ok(Self { weight: get("weight")?, bias: get("bias")?, sigma })
+    }
+
     /// `[M, inputs]` → `[M, outputs]`.
     pub fn forward(&self, x: &Tensor, input: Input, noise: Option<&LayerNoise>) -> Result<Tensor> {
         match (&self.sigma, noise) {

@@ -1,9 +1,11 @@
 //! The network: a ResNet trunk (He et al. 2016), implicit quantiles (Dabney et al. 2018, "Implicit Quantile Networks"),
 //! and a dueling head (Wang et al. 2016) of factorised noisy layers (Fortunato et al. 2018).
 
+use std::collections::HashMap;
 use std::f32::consts::PI;
 
-use candle_core::{D, Device, Result, Tensor};
+use candle_core::{D, DType, Device, Result, Tensor};
+use candle_nn::VarBuilder;
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
@@ -80,6 +82,11 @@ pub enum Initial {
     },
     /// The same value everywhere.
     Constant(f32),
+}
+
+/// Tensors by their names, for [`Network::new`].
+pub fn builder(tensors: HashMap<String, Tensor>) -> VarBuilder<'static> {
+    VarBuilder::from_tensors(tensors, DType::F32, &Device::Cpu)
 }
 
 /// Name, shape and initial distribution of a weight.
@@ -208,26 +215,14 @@ struct ImageTrunk {
 }
 
 impl Network {
-    /// A network with the weights that `get` returns by name, with the shapes of [`Architecture::tensors`].
+    /// A network with the weights of a builder, which have the names and shapes of [`Architecture::tensors`].
     ///
-    /// # Errors
-    /// Those of `get`.
-    pub fn new<E>(
-        architecture: Architecture,
-        mut get: impl FnMut(&str) -> std::result::Result<Tensor, E>,
-    ) -> std::result::Result<Self, E> {
-        let mut layer = |name: &str, noisy: bool| {
-            let sigma = match noisy {
-                true => Some((get(&format!("{name}.weight_sigma"))?, get(&format!("{name}.bias_sigma"))?)),
-                false => None,
-            };
-            Ok(Linear { weight: get(&format!("{name}.weight"))?, bias: get(&format!("{name}.bias"))?, sigma })
-        };
+    /// # Errors Those of candle, for a missing weight.
+    pub fn new(architecture: Architecture, weights: &VarBuilder<'_>) -> Result<Self> {
+        let layer = |name: &str, noisy: bool| Linear::new(&weights.pp(name), noisy);
         let noisy = architecture.noisy;
         let trunk = match architecture.fusion {
-            Fusion::Survey => {
-                Trunk::Survey(SurveyTrunk::new(architecture.survey, |name| layer(&format!("survey.{name}"), false))?)
-            }
+            Fusion::Survey => Trunk::Survey(SurveyTrunk::new(architecture.survey, &weights.pp("survey"))?),
             Fusion::Early | Fusion::Late => Trunk::Image(ImageTrunk {
                 patches: layer("trunk.patches", false)?,
                 block1: [layer("trunk.block1.conv1", false)?, layer("trunk.block1.conv2", false)?],

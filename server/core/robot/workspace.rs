@@ -16,13 +16,15 @@ pub const MOST_CELLS: usize = 250_000;
 const ROUNDING: f64 = 1e-9;
 
 /// Manipulability over a plane, in square cells.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
 pub struct ManipulabilityMap {
     /// Cells along x.
     pub columns: usize,
     /// Cells along y.
     pub rows: usize,
     /// Lower left corner of the lower left cell, `[x_m, y_m]`.
+    #[cfg_attr(feature = "schema", schema(value_type = crate::schema::Numbers2))]
     pub origin_m: [f64; 2],
     /// Side of a cell.
     pub cell_m: f64,

@@ -228,7 +228,7 @@ fn an_attempt_that_ends_in_a_step_ends_the_step() {
 }
 
 #[test]
-fn the_pace_is_that_of_the_time_that_is_told() {
+fn the_pace_is_that_of_the_passed_time() {
     let mut bench = open_floor(ControllerName::Attractor);
     bench.send(Command::SetSpeed(2.0)).unwrap();
     bench.send(Command::Run).unwrap();

@@ -13,14 +13,11 @@ use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::problem::Problem;
 use crate::http::refusals::{OutOfRange, Unavailable};
-use crate::protocol::{
-    Numbers3, Numbers6, Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery, Rows3, WorkspaceMap,
-    WorkspaceQuery,
-};
+use crate::protocol::{Numbers3, Numbers6, Rows3, WorkspaceMap, WorkspaceQuery};
 use ferry_core::control::limits::MIN_MANIPULABILITY_M3;
 use ferry_core::geometry::{Isometry3, Matrix3, Vector3};
-use ferry_core::magnetics::curves::{self, CurveError};
-use ferry_core::magnetics::plane;
+use ferry_core::magnetics::curves::{self, CurveError, PullCurve, PullQuery, ReachCurve, ReachQuery};
+use ferry_core::magnetics::plane::{self, Plane, PlaneQuery};
 use ferry_core::magnetics::{cuboid::Cuboid, force};
 use ferry_core::plant::manipulability_map;
 use ferry_core::robot::workspace::WorkspaceError;
@@ -154,7 +151,7 @@ pub async fn workspace(
         };
         Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "no_workspace", error.to_string()).field(field)
     })?;
-    Ok(Json(WorkspaceMap { map: map.into(), least_m3: MIN_MANIPULABILITY_M3 }))
+    Ok(Json(WorkspaceMap { map, least_m3: MIN_MANIPULABILITY_M3 }))
 }
 
 /// The pull on the bead over its offset from the block.
@@ -162,8 +159,8 @@ pub async fn workspace(
     responses((status = 200, body = PullCurve), OutOfRange, Unavailable))]
 pub async fn pull(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<PullCurve>, Problem> {
     let query: PullQuery = parse(&body)?;
-    let curve = server.work(move |_| curves::pull(&query.into())).await?;
-    curve.map(|curve| Json(curve.into())).map_err(|error| no_curve(&error))
+    let curve = server.work(move |_| curves::pull(&query)).await?;
+    curve.map(Json).map_err(|error| no_curve(&error))
 }
 
 /// The field and the pull on the bead over the table around the block.
@@ -171,8 +168,8 @@ pub async fn pull(State(server): State<Arc<Server>>, WholeBody(body): WholeBody)
     responses((status = 200, body = Plane), OutOfRange, Unavailable))]
 pub async fn plane(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<Plane>, Problem> {
     let query: PlaneQuery = parse(&body)?;
-    let plane = server.work(move |_| plane::plane(&query.into())).await?;
-    plane.map(|plane| Json(plane.into())).map_err(|error| no_curve(&error))
+    let plane = server.work(move |_| plane::plane(&query)).await?;
+    plane.map(Json).map_err(|error| no_curve(&error))
 }
 
 /// Reach and maximum speed of the drag over the block's height.
@@ -181,8 +178,8 @@ pub async fn plane(State(server): State<Arc<Server>>, WholeBody(body): WholeBody
 pub async fn reach(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<ReachCurve>, Problem> {
     let query: ReachQuery = parse(&body)?;
     // Some tenths of a millisecond per height.
-    let curve = server.work(move |_| curves::reach(&query.into())).await?;
-    curve.map(|curve| Json(curve.into())).map_err(|error| no_curve(&error))
+    let curve = server.work(move |_| curves::reach(&query)).await?;
+    curve.map(Json).map_err(|error| no_curve(&error))
 }
 
 fn no_curve(error: &CurveError) -> Problem {

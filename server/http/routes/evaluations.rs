@@ -12,8 +12,8 @@ use crate::http::body::{WholeBody, attachment, parse};
 use crate::http::path::{EvaluationPath, Path, ReportPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::protocol::{EvaluationQuery, EvaluationReport, EvaluationSummary, Evaluations};
-use ferry_lab::evaluate::{Evaluation, QueryError, Report, SubmitError};
+use crate::protocol::{EvaluationReport, EvaluationSummary, Evaluations};
+use ferry_lab::evaluate::{Evaluation, EvaluationQuery, QueryError, Report, SubmitError};
 use ferry_lab::jobs::QueueError;
 
 /// The evaluations: running, waiting, and the last ended ones.
@@ -33,7 +33,7 @@ pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBod
     let query: EvaluationQuery = parse(&body)?;
     let program = query.program.as_deref().and_then(|name| server.programs.find(name));
     // Reading the maps blocks.
-    let submit = move |server: &Arc<Server>| server.evaluations.submit(query.into(), &server.catalog, program);
+    let submit = move |server: &Arc<Server>| server.evaluations.submit(query, &server.catalog, program);
     let evaluation = server.work(submit).await??;
     let location = format!("/api/evaluations/{}", evaluation.id);
     let summary = Json(EvaluationSummary::from(&*evaluation));

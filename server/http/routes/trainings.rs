@@ -15,11 +15,8 @@ use crate::http::path::{FramePath, Path, TrainingPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, Malformed, NotFound, NotUpgraded, OutOfRange, TooMany, Unavailable};
 use crate::http::socket::{Limits, Socket, Upgrade};
-use crate::protocol::{
-    TrainingCells, TrainingFrame, TrainingMessage, TrainingQuery, TrainingReport, TrainingSummary, Trainings,
-};
-use ferry_lab::learn::LibraryError;
-use ferry_lab::learn::{QueryError, SubmitTrainingError, Training};
+use crate::protocol::{TrainingCells, TrainingFrame, TrainingMessage, TrainingReport, TrainingSummary, Trainings};
+use ferry_lab::learn::{LibraryError, QueryError, SubmitTrainingError, Training, TrainingQuery};
 
 /// Interval at which a change is looked for.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
@@ -41,7 +38,7 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<Trainings> {
         Conflict, OutOfRange, TooMany, Unavailable))]
 pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
     let query: TrainingQuery = parse(&body)?;
-    let training = server.work(move |server| server.trainings.submit(query.into())).await??;
+    let training = server.work(move |server| server.trainings.submit(query)).await??;
     let location = format!("/api/trainings/{}", training.id);
     let summary = Json(TrainingSummary::from(&*training));
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], summary).into_response())

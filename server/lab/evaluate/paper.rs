@@ -1,11 +1,16 @@
 //! The paper's results, for comparison with ours.
 
+use serde::Serialize;
+use ts_rs::TS;
+use utoipa::ToSchema;
+
 use super::Cell;
 use super::statistics::wilson95;
 use ferry_core::scenario::ControllerName;
+use ferry_core::schema::Numbers2;
 
 /// The paper's numbers for a row.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct PaperRow {
     /// Source in the paper.
     pub section: String,
@@ -13,6 +18,7 @@ pub struct PaperRow {
     /// Trials whose tool reached the goal.
     pub successes: u32,
     /// Wilson 95 % interval of `successes / episodes`.
+    #[schema(value_type = Numbers2)]
     pub successes_wilson95: [f64; 2],
     pub printed: String,
     /// Mean tracking error in both axes.

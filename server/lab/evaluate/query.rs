@@ -1,6 +1,9 @@
 //! The query of an evaluation, checked before anything runs.
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
 use super::variation::applied;
 use super::{Setting, Variation, VariationError};
@@ -19,24 +22,46 @@ pub const DISTURBANCES: std::ops::RangeInclusive<u32> = 0..=10;
 
 /// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
 /// same starts, goals and seeds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(deny_unknown_fields)]
 pub struct EvaluationQuery {
     /// Sub-controllers 2.
+    #[schema(value_type = std::collections::BTreeSet<ControllerName>, min_items = 1)]
     pub controllers: Vec<ControllerName>,
     /// Names of maps, shipped or added.
+    #[schema(value_type = std::collections::BTreeSet<String>, min_items = 1, example = json!(["posts"]))]
     pub maps: Vec<String>,
     /// Scripted disturbances per trial, 0 to 10.
+    #[schema(schema_with = disturbances)]
     pub disturbances: Vec<u32>,
     /// Trials per cell, 1 to 1000.
+    #[schema(minimum = 1, maximum = 1000)]
     pub episodes: u32,
     /// Seed of the trials.
+    #[ts(type = "number")]
     pub seed: u64,
-    /// Policy of the controller `rl`.
+    /// Policy of the controller `rl`, as the parameter `rl_policy`.
+    #[serde(default)]
+    #[ts(type = "string")]
+    #[schema(value_type = String, example = "auto")]
     pub rl_policy: RlPolicy,
-    /// Name of the program, with the controller `program`.
+    /// Name of a connected program, with the controller `program`.
+    #[serde(default)]
     pub program: Option<String>,
-    /// Parameters that take several values, at most two.
+    /// Parameters that take several values, at most two. Each combination has its cells.
+    #[serde(default)]
+    #[schema(max_items = 2)]
     pub vary: Vec<Variation>,
+}
+
+/// The derive has no limits for the items of a list.
+fn disturbances() -> Array {
+    let count = ObjectBuilder::new()
+        .schema_type(Type::Integer)
+        .minimum(Some(*DISTURBANCES.start()))
+        .maximum(Some(*DISTURBANCES.end()));
+    let about = "Scripted disturbances per trial, 0 to 10.";
+    ArrayBuilder::new().items(count).unique_items(true).min_items(Some(1)).description(Some(about)).build()
 }
 
 /// The subject of one row of the table.

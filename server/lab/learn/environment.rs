@@ -3,6 +3,8 @@
 
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::goals::GoalSet;
 use super::recipe::{EPISODE_STEPS, Recipe};
@@ -75,7 +77,11 @@ impl Recipe {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// How an episode ends, or would end if it began at a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[schema(as = EpisodeEnding)]
+#[ts(rename = "EpisodeEnding", rename_all = "snake_case")]
+#[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// Within 2 cm of the goal.
     Reached,

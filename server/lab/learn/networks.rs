@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
-use ferry_core::policy::{Architecture, Network, PolicyError, TensorSpec, weights};
+use ferry_core::policy::{Architecture, Network, PolicyError, TensorSpec, builder, weights};
 
 type NetworkResult<T> = candle_core::Result<T>;
 
@@ -94,15 +94,9 @@ pub struct Networks {
 
 /// A network with the given weights.
 pub fn network(architecture: Architecture, weights: &Weights) -> NetworkResult<Network> {
-    let specs = architecture.tensors();
-    Network::new(architecture, |name| {
-        let index = position(&specs, name);
-        Tensor::from_slice(&weights[index], specs[index].shape.clone(), &Device::Cpu)
-    })
-}
-
-fn position(specs: &[TensorSpec], name: &str) -> usize {
-    specs.iter().position(|spec| spec.name == name).expect("the tensor belongs to the network")
+    let tensors = architecture.tensors().into_iter().zip(weights);
+    let tensors = tensors.map(|(spec, values)| Ok((spec.name, Tensor::from_slice(values, spec.shape, &Device::Cpu)?)));
+    Network::new(architecture, &builder(tensors.collect::<NetworkResult<_>>()?))
 }
 
 impl Networks {
@@ -112,12 +106,11 @@ impl Networks {
         let variable =
             |(spec, values): (&TensorSpec, &Vec<f32>)| Var::from_slice(values, spec.shape.clone(), &Device::Cpu);
         let variables = specs.iter().zip(&memory.online).map(variable).collect::<NetworkResult<Vec<_>>>()?;
-        let online = Network::new(architecture, |name| {
-            Ok::<_, candle_core::Error>(variables[position(&specs, name)].as_tensor().clone())
-        })?;
-        let frozen = Network::new(architecture, |name| {
-            Ok::<_, candle_core::Error>(variables[position(&specs, name)].as_detached_tensor())
-        })?;
+        let names = || specs.iter().map(|spec| spec.name.clone());
+        let taped = names().zip(variables.iter().map(|variable| variable.as_tensor().clone()));
+        let online = Network::new(architecture, &builder(taped.collect()))?;
+        let detached = names().zip(variables.iter().map(Var::as_detached_tensor));
+        let frozen = Network::new(architecture, &builder(detached.collect()))?;
         let target = network(architecture, &memory.target)?;
         Ok(Self { variables, online, frozen, target })
     }

@@ -2,6 +2,8 @@
 //! deviation from the paper can be switched.
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::goals::GoalSet;
 use ferry_core::policy::{Architecture, Fusion};
@@ -74,14 +76,15 @@ pub struct Recipe {
     pub updates: u64,
 }
 
-/// A recipe by name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// Recipe from which the settings start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[ts(rename_all = "snake_case")]
 #[serde(rename_all = "snake_case")]
 pub enum RecipeName {
     /// Learns one map in minutes.
+    #[default]
     Quick,
     /// That of the shipped policies.
-    #[default]
     Full,
     /// The paper's reward, fusion and returns.
     Paper,

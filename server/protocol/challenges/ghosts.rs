@@ -1,33 +1,22 @@
 //! Runs on a challenge, to draw them.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::{AttemptScore, pair};
 use crate::boards::Entry;
-use ferry_core::challenge::{Ghost, Mishap, SAMPLE_TICKS, Trace};
+use ferry_core::challenge::{Ghost, Mishap, SAMPLE_TICKS, Score, Trace};
+use ferry_core::geometry::Point2;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::Numbers2;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MishapKind {
-    /// A wall stopped the tool.
-    Wall,
-    /// The bead was lost without a disturbance.
-    LostBead,
-    /// A disturbance took the bead away.
-    Disturbance,
-}
 
 /// Something that costs time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
 pub struct MishapMessage {
     #[ts(type = "number")]
     pub tick: u64,
-    pub kind: MishapKind,
+    pub kind: Mishap,
 }
 
 /// Places every .2 s, beginning at tick 1; the last ones are those of the delivery.
@@ -47,7 +36,7 @@ pub struct GhostMessage {
     /// Name of the person; `null` for a controller.
     pub player: Option<String>,
     /// `null` if it has not delivered in time.
-    pub score: Option<AttemptScore>,
+    pub score: Option<Score>,
     /// Seconds with the penalties; `null` without a delivery.
     pub total_s: Option<f64>,
     pub trace: TraceMessage,
@@ -63,18 +52,11 @@ pub struct Ghosts {
 
 impl From<&Trace> for TraceMessage {
     fn from(trace: &Trace) -> Self {
-        let mishap = |&(tick, mishap): &(u64, Mishap)| {
-            let kind = match mishap {
-                Mishap::Wall => MishapKind::Wall,
-                Mishap::LostBead => MishapKind::LostBead,
-                Mishap::Disturbance => MishapKind::Disturbance,
-            };
-            MishapMessage { tick, kind }
-        };
+        let pair = |point: Point2<f64>| -> [f64; 2] { point.coords.into() };
         Self {
             tool_m: trace.samples.iter().map(|sample| pair(sample.tool_m)).collect(),
             bead_m: trace.samples.iter().map(|sample| pair(sample.bead_m)).collect(),
-            mishaps: trace.mishaps.iter().map(mishap).collect(),
+            mishaps: trace.mishaps.iter().map(|&(tick, kind)| MishapMessage { tick, kind }).collect(),
         }
     }
 }
@@ -84,7 +66,7 @@ impl From<&Ghost> for GhostMessage {
         Self {
             controller: ghost.controller,
             player: None,
-            score: ghost.score.map(AttemptScore::from),
+            score: ghost.score,
             total_s: ghost.score.map(|score| score.total_s()),
             trace: TraceMessage::from(&ghost.trace),
         }
@@ -96,7 +78,7 @@ impl From<&Entry> for GhostMessage {
         Self {
             controller: ControllerName::You,
             player: Some(entry.signature.player.clone()),
-            score: Some(entry.score.into()),
+            score: Some(entry.score),
             total_s: Some(entry.score.total_s()),
             trace: TraceMessage::from(&*entry.trace),
         }

@@ -78,10 +78,10 @@ fn a_written_policy_judges_like_the_trained_network() {
         let expected = manifest(Architecture { noisy: false, ..architecture });
         assert_eq!(policy.manifest(), &expected, "acting does not need noise");
 
-        let network = Network::new(architecture, |name| {
-            let (spec, values) = weights.iter().find(|(spec, _)| spec.name == name).unwrap();
-            Tensor::from_slice(values, spec.shape.clone(), &Device::Cpu)
+        let tensors = weights.iter().map(|(spec, values)| {
+            (spec.name.clone(), Tensor::from_slice(values, spec.shape.clone(), &Device::Cpu).unwrap())
         });
+        let network = Network::new(architecture, &builder(tensors.collect()));
         let (network, seen) = (network.unwrap(), observation());
         let features = network.features(&images([&seen.bytes[..]].into_iter(), architecture.channels()).unwrap());
         let places = Tensor::from_slice(&seen.places(), (1, 1, 4), &Device::Cpu).unwrap();

@@ -39,7 +39,8 @@ fn variables(architecture: &Architecture, weights: &Weights) -> HashMap<String, 
 
 fn network(architecture: &Architecture, weights: &Weights) -> Network {
     let variables = variables(architecture, weights);
-    Network::new(*architecture, |name| Ok::<_, candle_core::Error>(variables[name].as_detached_tensor())).unwrap()
+    let detached = variables.into_iter().map(|(name, variable)| (name, variable.as_detached_tensor()));
+    Network::new(*architecture, &builder(detached.collect())).unwrap()
 }
 
 fn uniform(rng: &mut ChaCha8Rng, shape: &[usize]) -> Tensor {
@@ -277,8 +278,8 @@ fn the_gradient_of_every_weight_is_the_slope_of_the_network() {
         let mut weights = draw_weights(&architecture, 18);
         let example = Example::new(&architecture, 19);
         let variables = variables(&architecture, &weights);
-        let taped = Network::new(architecture, |name| Ok::<_, candle_core::Error>(variables[name].as_tensor().clone()))
-            .unwrap();
+        let taped = variables.iter().map(|(name, variable)| (name.clone(), variable.as_tensor().clone()));
+        let taped = Network::new(architecture, &builder(taped.collect())).unwrap();
         let out = example.quantiles(&taped);
         let mut rng = ChaCha8Rng::seed_from_u64(20);
         let factors = (uniform(&mut rng, out.dims()) - 0.5).unwrap();

@@ -2,6 +2,7 @@
 //! the cells around the tool.
 
 use candle_core::{D, Device, Result, Tensor};
+use candle_nn::VarBuilder;
 
 use super::route::CheapestRoutes;
 use super::{Survey, SurveyParts};
@@ -54,10 +55,8 @@ impl SurveyTrunk {
         layers
     }
 
-    pub(in crate::policy) fn new<E>(
-        parts: SurveyParts,
-        mut layer: impl FnMut(&str) -> std::result::Result<Linear, E>,
-    ) -> std::result::Result<Self, E> {
+    pub(in crate::policy) fn new(parts: SurveyParts, weights: &VarBuilder<'_>) -> Result<Self> {
+        let layer = |name: &str| Linear::new(&weights.pp(name), false);
         Ok(Self {
             parts,
             fine: [layer("fine1")?, layer("fine2")?],

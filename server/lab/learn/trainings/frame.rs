@@ -5,6 +5,8 @@ use candle_core::{Device, Result, Tensor};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::ranks::rank_correlation;
 use crate::learn::environment::{Ending, Episode, Goal};
@@ -36,8 +38,11 @@ pub struct Cells {
 }
 
 /// An episode as the cells that the tool visits.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[schema(as = TrainingEpisode)]
+#[ts(rename = "TrainingEpisode")]
 pub struct Trail {
+    /// Indices of cells.
     pub cells: Vec<u16>,
     pub ending: Ending,
 }

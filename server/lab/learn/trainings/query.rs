@@ -1,6 +1,8 @@
 //! What is asked of a training.
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use crate::learn::LibraryError;
 use crate::learn::error::TrainingError;
@@ -9,42 +11,89 @@ use crate::learn::terrain::TerrainError;
 use ferry_core::geometry::Point2;
 use ferry_core::map::{Map, MapError};
 use ferry_core::policy::{Architecture, Fusion, Manifest, PolicyError};
+use ferry_core::schema::Numbers2;
 
 /// Largest number of updates; at the usual speed, a quarter of an hour.
 const MOST_UPDATES: u64 = 20_000;
 /// Largest number of cells of a map; an image of each is kept in memory.
 const MOST_CELLS: usize = 6000;
 
-/// Settings that differ from the recipe; a missing one is the recipe's.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+/// How image, tool and goal come together in the network.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FusionName {
+    /// As a second channel of the image, as in the paper.
+    Early,
+    /// After the image's features.
+    Late,
+}
+
+/// Settings that differ from the recipe, named as in `ferry train --set`. A missing one is the recipe's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schema(as = TrainingSettings)]
+#[ts(rename = "TrainingSettings")]
 pub struct Settings {
+    /// Updates of the network.
+    #[ts(type = "number | null")]
+    #[schema(minimum = 1, maximum = 20000)]
     pub updates: Option<u64>,
+    /// Learning rate of Adam in the first half.
+    #[schema(minimum = 0, maximum = 0.1)]
     pub learning_rate: Option<f64>,
+    /// Discount per step.
+    #[schema(minimum = 0, maximum = 1)]
     pub discount: Option<f64>,
+    /// Share of random actions.
+    #[schema(minimum = 0, maximum = 1)]
     pub exploration: Option<f64>,
     /// Whether the network's noisy layers explore.
     pub noisy: Option<bool>,
+    /// Reward per step of true distance gained.
+    #[schema(minimum = 0, maximum = 1)]
     pub progress_reward: Option<f64>,
+    /// Subtracted at each step.
+    #[schema(minimum = 0, maximum = 1)]
     pub step_penalty: Option<f64>,
+    /// Steps of a return.
+    #[schema(minimum = 1, maximum = 20)]
     pub n_step: Option<u32>,
-    /// Early or late.
-    pub fusion: Option<Fusion>,
+    pub fusion: Option<FusionName>,
 }
 
-/// A training of one policy on one map.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Body of `POST /api/trainings`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(deny_unknown_fields)]
 pub struct TrainingQuery {
+    /// Name of a map, shipped or added.
+    #[schema(example = "posts")]
     pub map: String,
-    /// Name of the policy that it becomes.
+    /// Name of the policy that it becomes: up to 40 of a to z, 0 to 9, - and _.
+    #[schema(example = "my-policy", pattern = "^[a-z0-9][a-z0-9_-]{0,39}$")]
     pub name: String,
+    #[ts(type = "number")]
     pub seed: u64,
+    #[serde(default)]
     pub recipe: RecipeName,
+    #[serde(default)]
     pub settings: Settings,
-    /// Policy whose weights it starts from, as `rl_policy`; otherwise random weights.
+    /// Policy whose weights it starts from; `null`: random weights.
+    #[serde(default)]
     pub start_from: Option<String>,
-    /// Goal of the value maps.
+    /// Goal of the value maps; `null`: a place far from the others.
+    #[serde(default)]
+    #[ts(type = "[number, number] | null")]
+    #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<Point2<f64>>,
+}
+
+impl From<FusionName> for Fusion {
+    fn from(name: FusionName) -> Self {
+        match name {
+            FusionName::Early => Self::Early,
+            FusionName::Late => Self::Late,
+        }
+    }
 }
 
 /// Why a training is rejected or failed.
@@ -110,6 +159,7 @@ impl TrainingQuery {
             n_step,
             fusion,
         } = self.settings;
+        let fusion = fusion.map(Fusion::from);
         recipe.updates = updates.unwrap_or(recipe.updates);
         recipe.discount = discount.unwrap_or(recipe.discount);
         recipe.exploration = exploration.unwrap_or(recipe.exploration);
@@ -181,13 +231,12 @@ mod tests {
         let recipe = TrainingQuery { settings, ..query() }.recipe(None).unwrap();
         let rates = (recipe.learning_rate, recipe.learning_rate_end);
         assert_eq!((recipe.discount, rates), (0.5, (2e-3, 2.0 * Recipe::quick().learning_rate_end)));
-        let early = Settings { fusion: Some(Fusion::Early), ..Settings::default() };
+        let early = Settings { fusion: Some(FusionName::Early), ..Settings::default() };
         assert_eq!(TrainingQuery { settings: early, ..query() }.recipe(None).unwrap().goals, 1);
         for (settings, field) in [
             (Settings { discount: Some(1.5), ..Settings::default() }, "settings.discount"),
             (Settings { updates: Some(0), ..Settings::default() }, "settings.updates"),
             (Settings { updates: Some(MOST_UPDATES + 1), ..Settings::default() }, "settings.updates"),
-            (Settings { fusion: Some(Fusion::Survey), ..Settings::default() }, "settings.fusion"),
             (Settings { learning_rate: Some(f64::NAN), ..Settings::default() }, "settings.learning_rate"),
         ] {
             assert_eq!(TrainingQuery { settings, ..query() }.recipe(None).unwrap_err().field(), field);
@@ -199,7 +248,7 @@ mod tests {
         let [colon, explorer] = ["colon", "explorer"].map(|name| Policy::shipped(name).unwrap());
         let asked = TrainingQuery { start_from: Some("explorer".into()), ..query() };
         assert_eq!(asked.recipe(Some(explorer.manifest())).unwrap_err().field(), "start_from");
-        let settings = Settings { fusion: Some(Fusion::Early), ..Settings::default() };
+        let settings = Settings { fusion: Some(FusionName::Early), ..Settings::default() };
         let asked = TrainingQuery { settings, start_from: Some("colon".into()), ..query() };
         assert_eq!(asked.recipe(Some(colon.manifest())).unwrap_err().field(), "settings.fusion");
         assert!(query().recipe(Some(colon.manifest())).unwrap().architecture.noisy);
