@@ -8,7 +8,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run dev test test-long dist wheel test-browser test-library test-main check-page test-page test-package test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test system-browsers
+.PHONY: run dev test test-long dist wheel test-browser test-library test-main check-page check-wasm test-page test-package test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test system-browsers
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -68,7 +68,7 @@ test test-library test-main test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-d
 test: system-test $(TOOLS)
 	cargo fmt --all --check
 	cargo build --release --all-targets --quiet
-	$(MAKE) wheel $(WHEEL_TOOLS)
+	$(MAKE) wheel check-wasm $(WHEEL_TOOLS)
 	$(MAKE) --jobs=2 --output-sync=target test-main test-package check-page test-library test-page
 	$(MAKE) test-browser
 
@@ -80,6 +80,21 @@ test-main:
 	$(MAIN_TESTS)
 test-library:
 	$(LIBRARY_TESTS)
+# `ferry-core` must run in a browser. Where rustup cannot add the target, Debian's compiler for the web checks it, with a
+# standard library that is compiled for it.
+CHECK_WASM := cargo check --release --quiet --package ferry-core --target wasm32-unknown-unknown
+WEB_RUST := target/rust-web
+WEB_RUST_PACKAGES := rustc-web libstd-rust-web-1.96 libstd-rust-web-dev rust-web-src rust-web-llvm libllvm22 lld-22
+check-wasm:
+	@if [ -d "$$(rustc --print sysroot)/lib/rustlib/wasm32-unknown-unknown" ] || \
+		rustup target add wasm32-unknown-unknown 2>/dev/null; then $(CHECK_WASM); \
+	else $(MAKE) $(WEB_RUST)/unpacked && export RUSTC=$(CURDIR)/$(WEB_RUST)/usr/bin/rustc RUSTC_BOOTSTRAP=1 && \
+		LD_LIBRARY_PATH=$(CURDIR)/$(WEB_RUST)/usr/lib/x86_64-linux-gnu CARGO_TARGET_DIR=$(WEB_RUST)/target \
+		$(CHECK_WASM) -Zbuild-std=std,panic_abort; fi
+$(WEB_RUST)/unpacked:
+	mkdir -p $(WEB_RUST)
+	cd $(WEB_RUST) && apt-get download $(WEB_RUST_PACKAGES) && for package in *.deb; do dpkg -x $$package .; done && rm *.deb
+	touch $@
 check-page:
 	cd web && npm run --silent check
 test-page:

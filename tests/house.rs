@@ -35,8 +35,7 @@ const BUILT_ON: [(&str, &[&str]); 7] = [
 ];
 
 /// What `ferry-core` must not depend on, so that it runs in a browser and in a test without anything around it.
-const NOT_IN_CORE: [&str; 10] =
-    ["tokio", "wgpu", "re_", "axum", "tracing", "tempfile", "rustix", "libc", "jiff", "getrandom"];
+const NOT_IN_CORE: [&str; 9] = ["tokio", "wgpu", "re_", "axum", "tracing", "tempfile", "rustix", "libc", "jiff"];
 
 /// Crates that only these modules may use.
 const CONFINED: [(&str, &[&str]); 4] = [

@@ -20,7 +20,7 @@ use crate::protocol::{
     AttemptAnswer, AttemptQuery, AttemptReport, ChallengeReport, ChallengeSummary, Challenges, Ghosts, Period,
 };
 use ferry_camera::{Camera, CameraError, Gpu};
-use ferry_core::challenge::{Attempt, AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
+use ferry_core::challenge::{AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Ended;
 use ferry_core::trial::TrialError;
@@ -178,7 +178,6 @@ pub async fn add(
 ) -> Result<(StatusCode, Json<AttemptAnswer>), Problem> {
     let name = named(&name)?;
     let AttemptQuery { session, seat, player, class, attempt } = parse(&body)?;
-    let attempt = Attempt::from(attempt);
     let hub = server.sessions.find(&session);
     let hub = hub.ok_or_else(|| refused("unknown_session", "session", format!("there is no session {session:?}")))?;
     let played = hub.session.played().await.map_err(|error| Problem::from(&error).field("session"))?;
