@@ -5,7 +5,7 @@
 //!
 //! - floor 0: [`boards`], [`export`]: the boards of challenges; models of the arm for other programs.
 //! - floor 1: [`session`]: a session on a real clock.
-//! - floor 2: [`protocol`]: every wire type.
+//! - floor 2: [`protocol`]: wire types with a shape of their own.
 //! - floor 3: [`http`]: axum routes and the WebSocket.
 //! - floor 4: [`cli`]: assembling.
 

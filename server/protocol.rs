@@ -1,5 +1,5 @@
-//! The wire types: every message of the WebSocket and every body of the API, with the conversions from and to the types of
-//! the lower modules.
+//! The wire types that have a shape of their own, with the conversions from and to the types of the lower modules. Other
+//! types travel as they are.
 //!
 //! Text frames are JSON objects tagged by `type`. Binary frames carry pictures: one byte
 //! [`BINARY_CAMERA_JPEG`] or [`BINARY_OBSERVATION`], three bytes of zero, the tick as u32
@@ -21,7 +21,6 @@ mod policies;
 mod programs;
 mod recordings;
 mod recoveries;
-mod robot;
 mod seed;
 mod server;
 mod tracker;
@@ -52,7 +51,6 @@ pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
 pub use recoveries::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary, RecoveryTrial, RecoveryTrials};
-pub use robot::{RobotClient, RobotRefusal, RobotStanding, TwinStanding};
 pub use server::{CaseSummary, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
 pub use tracker::{GoalPlace, TrackerEstimate};
 pub use trainings::{

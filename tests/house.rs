@@ -41,8 +41,42 @@ const NOT_IN_CORE: [&str; 9] = ["tokio", "wgpu", "re_", "axum", "tracing", "temp
 const CONFINED: [(&str, &[&str]); 4] = [
     ("candle_core", &["policy", "learn"]),
     ("tokio", &["program", "ur", "session", "http", "cli"]),
-    ("utoipa", &["schema", "geometry", "plant", "scenario", "trial", "evaluate", "recovery", "protocol", "http"]),
-    ("ts_rs", &["geometry", "plant", "scenario", "trial", "evaluate", "recovery", "protocol"]),
+    (
+        "utoipa",
+        &[
+            "schema",
+            "geometry",
+            "magnetics",
+            "robot",
+            "plant",
+            "scenario",
+            "trial",
+            "challenge",
+            "learn",
+            "evaluate",
+            "recovery",
+            "ur",
+            "protocol",
+            "http",
+        ],
+    ),
+    (
+        "ts_rs",
+        &[
+            "geometry",
+            "magnetics",
+            "robot",
+            "plant",
+            "scenario",
+            "trial",
+            "challenge",
+            "learn",
+            "evaluate",
+            "recovery",
+            "ur",
+            "protocol",
+        ],
+    ),
 ];
 
 /// What the camera must not see of the crate below it.

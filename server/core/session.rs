@@ -36,8 +36,8 @@ use crate::trial::{
     Arena, Case, Catalog, ControlQuery, Event, Input, LogError, Moment, Origin, Sight, Sink, Timed, Trial, TrialError,
 };
 
-pub use asking::ANSWER_WITHIN;
-use asking::ProgramLink;
+pub use asking::PROGRAM_ANSWER_WITHIN;
+use asking::ProgramQueries;
 pub use branch_point::{BranchPoint, Progress};
 pub use error::CommandError;
 use history::History;
@@ -244,7 +244,7 @@ pub struct Session<E> {
     /// Whether the trial's hand comes from a rewind and no longer belongs to a pointer.
     hand_is_stale: bool,
     playing: Option<Playing>,
-    program: ProgramLink,
+    program: ProgramQueries,
     scenery: Arc<Scenery>,
     sight: Arc<(u64, Sight)>,
     messages: Vec<Message>,
@@ -281,7 +281,7 @@ impl<E: ImageSource> Session<E> {
             stepping: 0,
             hand_is_stale: false,
             playing: None,
-            program: ProgramLink::default(),
+            program: ProgramQueries::default(),
             messages: Vec::new(),
             fault: None,
         };
@@ -323,11 +323,6 @@ impl<E: ImageSource> Session<E> {
     /// Requested speed, simulated seconds per second.
     pub fn speed_target(&self) -> f64 {
         self.pace.factor()
-    }
-
-    /// Counts the trials of the session, from 0.
-    pub fn trial_number(&self) -> u64 {
-        self.scenery.trial
     }
 
     /// `recording`, or why nothing is recorded.

@@ -8,7 +8,7 @@ use super::ErrorMessage;
 use ferry_core::control::transport::program::Answer;
 use ferry_core::geometry::{Point2, Rect};
 use ferry_core::scenario::Parameters;
-use ferry_core::session::ANSWER_WITHIN;
+use ferry_core::session::PROGRAM_ANSWER_WITHIN;
 use ferry_core::trial::{ControlQuery, Leg};
 use ferry_lab::program::{Asked, Program};
 
@@ -104,7 +104,7 @@ impl ProgramAnswer {
 
 impl ProgramMessage {
     pub fn hello(name: &str) -> Self {
-        let answer_within_s = ANSWER_WITHIN.as_secs_f64();
+        let answer_within_s = PROGRAM_ANSWER_WITHIN.as_secs_f64();
         Self::Hello { protocol: PROGRAM_PROTOCOL_VERSION, name: name.to_owned(), answer_within_s }
     }
 

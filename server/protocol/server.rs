@@ -6,8 +6,7 @@ use utoipa::ToSchema;
 
 use super::lumen::wave_m;
 use super::{
-    AttemptStanding, ComparisonMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding, RobotStanding,
-    SeenMessage, TwinStanding,
+    AttemptStanding, ComparisonMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding, SeenMessage,
 };
 use crate::session::View;
 use ferry_core::geometry::{Point2, Polygon, Rect};
@@ -16,6 +15,7 @@ use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::{ControllerName, Parameters, Scenario};
 use ferry_core::schema::{Numbers2, Numbers3, Numbers6};
 use ferry_core::session::{KeptRunSummary, OpenedCase, Scenery};
+use ferry_ur::{Standing as RobotStanding, TwinStanding};
 
 /// Directions in which the scene gives the capture distances.
 const CAPTURE_DIRECTIONS: u32 = 72;
@@ -377,8 +377,8 @@ impl From<&View> for StateMessage {
             disturbances: m.counters.disturbances,
             attempt: view.attempt.as_ref().map(AttemptStanding::from),
             program: view.program.as_deref().map(ProgramStanding::from),
-            robot: view.robot.as_ref().map(RobotStanding::from),
-            twin: view.twin.as_ref().map(TwinStanding::from),
+            robot: view.robot.clone(),
+            twin: view.twin.clone(),
             world_hash: format!("{:016x}", view.world_hash),
             recording: view.recording.clone(),
             ended: view.ended.clone(),

@@ -30,6 +30,9 @@ use ferry_core::trial::{EventKind, GOAL_RADIUS_M};
 use ferry_lab::evaluate::{Comparison, EvaluationQuery, PairedMean, PaperRow, Row, Setting, Variation};
 use ferry_lab::learn::{Ending, FusionName, Recipe, RecipeName, Settings, Trail, TrainingQuery};
 use ferry_lab::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
+use ferry_ur::controller::{Connected, Standing as RobotStanding};
+use ferry_ur::refusals::Refused;
+use ferry_ur::twin::TwinStanding;
 
 const HEADER: &str =
     "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n\n";
@@ -226,7 +229,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 18] {
         ),
         ("lumen", declared![WallRing, Lumen]),
         ("programs", declared![ProgramStanding, Programs]),
-        ("robot", declared![RobotClient, RobotRefusal, RobotStanding, TwinStanding]),
+        ("robot", declared![Connected, Refused, RobotStanding, TwinStanding]),
         ("policies", declared![PolicyOrigin, PolicySummary, Policies, PolicyName]),
     ]
 }

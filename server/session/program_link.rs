@@ -7,7 +7,7 @@ use tokio::sync::oneshot::{self, error::TryRecvError};
 
 use ferry_core::control::transport::program::Answer;
 use ferry_core::image::ImageSource;
-use ferry_core::session::{ANSWER_WITHIN, Session};
+use ferry_core::session::{PROGRAM_ANSWER_WITHIN, Session};
 use ferry_core::trial::ControlQuery;
 use ferry_lab::program::Program;
 
@@ -49,7 +49,7 @@ impl ProgramLink {
         let Some(program) = self.selected.clone() else {
             return session.answer(number, Answer::Hold { reason: "none is selected".to_owned() });
         };
-        match program.ask(name, query, ANSWER_WITHIN) {
+        match program.ask(name, query, PROGRAM_ANSWER_WITHIN) {
             Ok(answer) => self.open = Some(OpenQuestion { number, program, answer, since: Instant::now() }),
             Err(error) => {
                 program.note(None);

@@ -5,6 +5,10 @@ mod tests;
 
 use std::collections::VecDeque;
 
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+
 use super::command::Command;
 use super::control_script::{ControlScript, Next};
 use super::drive_script::DriveScript;
@@ -25,27 +29,32 @@ const PROTECTIVE_STOP: i32 = 3;
 /// Tells the clients of a controller apart.
 pub type ClientId = u64;
 
-/// A connected client.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A connection.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[schema(as = RobotClient)]
+#[ts(rename = "RobotClient")]
 pub struct Connected {
+    #[serde(skip)]
     pub id: ClientId,
     /// Address and port.
     pub from: String,
-    /// What it speaks.
-    pub port: &'static str,
+    /// `dashboard`, `URScript` or `RTDE`.
+    pub speech: String,
 }
 
-/// What the page shows.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Who is connected to the robot server, what moves the arm, and what was refused.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[schema(as = RobotStanding)]
+#[ts(rename = "RobotStanding")]
 pub struct Standing {
     pub clients: Vec<Connected>,
-    /// Name of the program that runs.
+    /// The program that runs.
     pub program: Option<String>,
-    /// URScript's name of the motion that was begun last.
-    pub command: Option<&'static str>,
+    /// URScript's name of the motion, while there is one.
+    pub command: Option<String>,
     /// Why the arm is in a protective stop.
     pub stop: Option<String>,
-    /// Newest last.
+    /// Newest last, at most 20.
     pub refused: Vec<Refused>,
 }
 
@@ -115,9 +124,9 @@ pub struct Controller {
 }
 
 impl Controller {
-    pub fn connect(&mut self, from: String, port: &'static str) -> ClientId {
+    pub fn connect(&mut self, from: String, speech: &str) -> ClientId {
         self.clients_made += 1;
-        self.clients.push(Connected { id: self.clients_made, from, port });
+        self.clients.push(Connected { id: self.clients_made, from, speech: speech.to_owned() });
         self.clients_made
     }
 
@@ -144,7 +153,7 @@ impl Controller {
         Standing {
             clients: self.clients.clone(),
             program: self.running.as_ref().map(|running| running.name.clone()),
-            command: self.command.filter(|_| self.mover.is_busy()),
+            command: self.command.filter(|_| self.mover.is_busy()).map(str::to_owned),
             stop: self.stop.clone(),
             refused: self.refusals.since(0).cloned().collect(),
         }

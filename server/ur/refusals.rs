@@ -2,14 +2,20 @@
 
 use std::collections::VecDeque;
 
+use serde::{Deserialize, Serialize};
 use tokio::sync::watch;
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 /// What is kept.
 const MOST: usize = 20;
 
 /// What was refused, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[schema(as = RobotRefusal)]
+#[ts(rename = "RobotRefusal")]
 pub struct Refused {
+    #[ts(type = "number")]
     pub tick: u64,
     pub what: String,
     pub why: String,

@@ -10,7 +10,10 @@ use std::net::IpAddr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use serde::{Deserialize, Serialize};
 use tokio::sync::watch;
+use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::drive_script::OVER;
 use super::news::{Item, News};
@@ -84,20 +87,25 @@ pub struct Answer {
     pub programs: u32,
 }
 
-/// What the page shows.
-#[derive(Clone, Debug, PartialEq)]
+/// A robot outside of Ferry (`ferry drive`), whose arm the simulated one mirrors.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct TwinStanding {
+    #[ts(type = "string")]
+    #[schema(value_type = String)]
     pub address: IpAddr,
+    /// Whether Ferry may move it (`--enable-motion`).
     pub allows_motion: bool,
-    /// Why the robot is not connected; `None` if it is.
+    /// Why it is not connected; `null` if it is.
     pub trouble: Option<String>,
-    /// What its dashboard says that it is, if it says so.
+    /// What its dashboard says that it is; `null` if it does not say.
     pub model: Option<String>,
-    /// Why its poses may not be Ferry's.
+    /// Why places on the table may be others than Ferry's; `null` if there is no reason to think so.
     pub doubt: Option<String>,
+    /// As it reports it: 7 while it runs.
     pub robot_mode: i32,
+    /// As it reports it: 1 normal, 2 reduced, 3 protective stop.
     pub safety_mode: i32,
-    /// Whether the button is held and the robot begins or follows.
+    /// Whether the button is held and the robot begins to follow, or follows.
     pub is_held: bool,
     /// Whether it follows Ferry's controllers.
     pub is_driven: bool,

@@ -10,11 +10,11 @@ use crate::scenario::{ControllerName, Parameters};
 use crate::trial::{Seen, TrialError};
 
 /// A session waits this long for an answer; then the arm holds for this control step.
-pub const ANSWER_WITHIN: Duration = Duration::from_millis(100);
+pub const PROGRAM_ANSWER_WITHIN: Duration = Duration::from_millis(100);
 
 /// What a session knows of the program that it asks.
 #[derive(Default)]
-pub struct ProgramLink {
+pub struct ProgramQueries {
     /// The program that was selected last.
     name: Option<String>,
     /// Number of questions so far.
@@ -48,7 +48,7 @@ pub enum Sees {
     Waits,
 }
 
-impl ProgramLink {
+impl ProgramQueries {
     /// The next question goes to this program.
     pub fn select(&mut self, name: String) {
         self.name = Some(name);
@@ -57,7 +57,7 @@ impl ProgramLink {
     /// Time until the answer is no longer waited for; zero if none is waited for.
     pub fn wait(&self, now: Duration) -> Duration {
         let open = self.waiting.as_ref().filter(|waiting| waiting.answer.is_none());
-        open.map_or(Duration::ZERO, |waiting| (waiting.since + ANSWER_WITHIN).saturating_sub(now))
+        open.map_or(Duration::ZERO, |waiting| (waiting.since + PROGRAM_ANSWER_WITHIN).saturating_sub(now))
     }
 
     /// The answer to the question is no longer waited for.
@@ -135,14 +135,14 @@ impl<E: ImageSource> Session<E> {
         Ok(Sees::Waits)
     }
 
-    /// The answer that has come, or after [`ANSWER_WITHIN`] a hold that says that it is missing.
+    /// The answer that has come, or after [`PROGRAM_ANSWER_WITHIN`] a hold that says that it is missing.
     fn answer_of(&mut self, waiting: &Waiting, now: Duration) -> Option<Answer> {
-        if waiting.answer.is_some() || now.saturating_sub(waiting.since) < ANSWER_WITHIN {
+        if waiting.answer.is_some() || now.saturating_sub(waiting.since) < PROGRAM_ANSWER_WITHIN {
             return waiting.answer.clone();
         }
         self.messages.push(Message::Unanswered { number: self.program.asked });
         let name = self.program.name.as_deref().unwrap_or_default();
-        let reason = format!("{name} gave no answer within {} ms", ANSWER_WITHIN.as_millis());
+        let reason = format!("{name} gave no answer within {} ms", PROGRAM_ANSWER_WITHIN.as_millis());
         Some(Answer::Hold { reason })
     }
 }

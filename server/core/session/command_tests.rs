@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{ANSWER_WITHIN, Command, Kept, Opening, Session, Surroundings};
+use super::{Command, Kept, Opening, PROGRAM_ANSWER_WITHIN, Session, Surroundings};
 use crate::control::limits::{LIFT_SPEED_M_S, MIN_MANIPULABILITY_M3};
 use crate::geometry::Point2;
 use crate::image::{CameraError, CameraFrame, ImageSource, Picture, Subject};
@@ -301,7 +301,7 @@ fn random_commands_keep_the_limits_and_refused_ones_change_nothing() {
         }
         while session.is_stepping() {
             // A program that is selected and missing has no answer.
-            now += ANSWER_WITHIN;
+            now += PROGRAM_ANSWER_WITHIN;
             session.advance(now).unwrap();
         }
         let fault = session.take_fault();

@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use super::{
-    ANSWER_WITHIN, Command, CommandError, Ended, Message, Opening, Recalled, Saved, Session, Surroundings, View, Void,
+    Command, CommandError, Ended, Message, Opening, PROGRAM_ANSWER_WITHIN, Recalled, Saved, Session, Surroundings,
+    View, Void,
 };
 use crate::control::transport::program::Answer;
 use crate::geometry::Point2;
@@ -175,7 +176,7 @@ fn a_program_is_asked_and_its_silence_holds_the_arm() {
     let before = bench.now;
     let (number, _) = asked(&bench);
     let held = bench.run_until("the hold", |view| view.moment.tick > moved.moment.tick);
-    assert!(bench.now - before >= ANSWER_WITHIN);
+    assert!(bench.now - before >= PROGRAM_ANSWER_WITHIN);
     assert_eq!(held.moment.refusal.as_deref(), Some("the program: mine gave no answer within 100 ms"));
     assert!(matches!(bench.others.last(), Some(Message::Unanswered { number: missed }) if *missed == number));
     bench.session.answer(number, Answer::Go { target_m });

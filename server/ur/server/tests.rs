@@ -128,7 +128,7 @@ async fn programs_at_the_script_ports_are_refused_without_an_arm_and_noted() {
         soon(&|| robot.standing().refused.len() > count).await;
         let standing = robot.standing();
         assert!(standing.refused[count].why.contains("planar stage"), "{standing:?}");
-        assert_eq!((standing.clients[0].port, standing.program), ("URScript", None));
+        assert_eq!((standing.clients[0].speech.as_str(), standing.program), ("URScript", None));
         drop(socket);
         soon(&|| robot.standing().clients.is_empty()).await;
     }
