@@ -210,8 +210,8 @@ origin_m: [number, number],
  */
 cell_m: number, 
 /**
- * |det J| in m³ with the flange over each cell's centre, row by row from the lower left; `None`
- * where the branch does not reach. `rows × columns` values.
+ * |det J| in m³ with the flange over each cell's centre: `rows × columns` values, row by row from the
+ * lower left. `None` if the branch does not reach the cell.
  */
 manipulability_m3: Array<number | null>, };
 
