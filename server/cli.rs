@@ -31,7 +31,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::http::EmbeddedFile;
-use ferry_camera::{AdapterChoice, CameraError, Gpu};
+use ferry_camera::{AdapterChoice, Gpu};
+use ferry_core::image::CameraError;
 
 /// A browser laboratory: a robot arm carries a magnetic bead through a maze.
 #[derive(Parser)]

@@ -2,9 +2,9 @@
 
 use std::sync::{Arc, OnceLock};
 
-use ferry_camera::{Camera, CameraError, ImageSource, Subject};
+use ferry_camera::Camera;
 use ferry_core::geometry::Point2;
-use ferry_core::image::CameraFrame;
+use ferry_core::image::{CameraError, CameraFrame, ImageSource, Subject};
 use ferry_core::plant::{BeadMotion, PositionerKind, ToolOrientation};
 use ferry_core::policy::Shipped;
 use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};

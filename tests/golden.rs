@@ -6,9 +6,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ferry_camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
+use ferry_camera::{AdapterChoice, Camera, Gpu, Quality};
 use ferry_core::geometry::{Point2, Point3};
-use ferry_core::image::{CameraMount, Picture};
+use ferry_core::image::{CameraMount, Picture, Subject};
 use ferry_core::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrientation, WallMotion};
 use ferry_core::scenario::Parameters;
 use ferry_core::trial::Arena;

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use ferry_camera::{Camera, ImageSource};
+use ferry_camera::Camera;
 use ferry_core::geometry::Point2;
+use ferry_core::image::ImageSource;
 use ferry_core::policy::Shipped;
 use ferry_core::scenario::{ControllerName, Scenario};
 use ferry_core::trial::{

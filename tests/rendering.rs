@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use ferry_camera::{AdapterChoice, Camera, Gpu, StaticScene, Subject, VIEW_PX};
+use ferry_camera::{AdapterChoice, Camera, Gpu};
 use ferry_core::geometry::{Point2, Point3, Polygon, Rect, Vector2};
-use ferry_core::image::{CameraFrame, CameraMount};
+use ferry_core::image::{CameraFrame, CameraMount, StaticScene, Subject, VIEW_PX};
 use ferry_core::map::{Map, WALL_HEIGHT_M};
 use ferry_core::perception::Percept;
 use ferry_core::plant::BEAD_RADIUS_M;

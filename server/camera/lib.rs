@@ -53,9 +53,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use ferry_core::geometry::{Polygon, Rect};
-use ferry_core::image::{CameraFrame, Picture};
 
-pub use ferry_core::image::{CameraError, ImageSource, StaticScene, Subject, VIEW_PX, check_mount};
+use ferry_core::image::{CameraError, CameraFrame, ImageSource, Picture, StaticScene, Subject, VIEW_PX, check_mount};
 pub use gpu::{AdapterChoice, Gpu};
 
 pub const BEAD_RADIUS_M: f64 = 0.0025;

@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use ferry_camera::{Camera, Subject};
+use ferry_camera::Camera;
 use ferry_core::geometry::{Point2, Point3};
-use ferry_core::image::Picture;
+use ferry_core::image::{Picture, Subject};
 use ferry_core::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, WallMotion};
 use ferry_core::scenario::{ControllerName, Parameters};
 use ferry_core::trial::Tally;

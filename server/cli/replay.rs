@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use anyhow::Context;
 
-use ferry_camera::{Camera, CameraError, ImageSource};
+use ferry_camera::Camera;
+use ferry_core::image::{CameraError, ImageSource};
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::trial::{Arena, Deciding, Entry, replay};
 use ferry_files::open;

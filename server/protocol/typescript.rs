@@ -10,11 +10,11 @@ use serde_json::json;
 use ts_rs::{Config, TS};
 
 use super::*;
-use ferry_camera::VIEW_PX;
 use ferry_core::challenge::{Attempt, Difficulty, Loss, Mishap, Score};
 use ferry_core::control::CONTROL_PERIOD_S;
 use ferry_core::control::transport::errt::MOST_EDGES;
 use ferry_core::geometry::{Polygon, Rect};
+use ferry_core::image::VIEW_PX;
 use ferry_core::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
 use ferry_core::magnetics::force::FARTHEST_M;
 use ferry_core::magnetics::plane::{Plane, PlaneQuery};

@@ -4,9 +4,9 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::Criterion;
-use ferry_camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
+use ferry_camera::{AdapterChoice, Camera, Gpu, Quality};
 use ferry_core::geometry::{Point2, Point3};
-use ferry_core::image::CameraMount;
+use ferry_core::image::{CameraMount, Subject};
 use ferry_core::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation, WallMotion};
 use ferry_core::scenario::Parameters;
 use ferry_core::trial::Arena;

@@ -4,11 +4,11 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::Criterion;
-use ferry_camera::{AdapterChoice, Camera, Gpu, Subject};
+use ferry_camera::{AdapterChoice, Camera, Gpu};
 use ferry_core::control::transport::rl::Rl;
 use ferry_core::control::transport::{Transport, TransportInput};
 use ferry_core::geometry::Point2;
-use ferry_core::image::{CameraFrame, CameraMount};
+use ferry_core::image::{CameraFrame, CameraMount, Subject};
 use ferry_core::map::{FreeSpace, WALL_HEIGHT_M};
 use ferry_core::perception::{ObstacleMap, Percept, wall_spread};
 use ferry_core::policy::Policy;

@@ -6,10 +6,10 @@ use std::sync::{Arc, LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
 use ferry::protocol::ClientMessage;
-use ferry_camera::{CameraError, ImageSource, Subject};
+
 use ferry_core::control::limits::Limits;
 use ferry_core::geometry::{Point3, Rect};
-use ferry_core::image::{CameraFrame, Picture};
+use ferry_core::image::{CameraError, CameraFrame, ImageSource, Picture, Subject};
 use ferry_core::map::{FreeSpace, Map};
 use ferry_core::plant::{Positioner, PositionerKind, ToolOrientation};
 use ferry_core::policy::Policy;

@@ -1,10 +1,10 @@
 //! An attempt as an episode: what the camera showed and what the hand did, at each control step.
 
 use crate::boards::Kept;
-use ferry_camera::ImageSource;
 use ferry_core::challenge::{AttemptError, Challenge};
 use ferry_core::control::Refusal;
 use ferry_core::geometry::{Point2, Vector2};
+use ferry_core::image::ImageSource;
 use ferry_core::trial::{Decision, Motion, Sight, TickRecord, Trial, TrialError};
 
 /// What is there before a step is decided.

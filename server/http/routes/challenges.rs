@@ -19,8 +19,9 @@ use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable
 use crate::protocol::{
     AttemptAnswer, AttemptQuery, AttemptReport, ChallengeReport, ChallengeSummary, Challenges, Ghosts, Period,
 };
-use ferry_camera::{Camera, CameraError, Gpu};
+use ferry_camera::{Camera, Gpu};
 use ferry_core::challenge::{AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
+use ferry_core::image::CameraError;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Ended;
 use ferry_core::trial::TrialError;

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-use ferry_camera::{CameraError, Gpu};
+use ferry_camera::Gpu;
+use ferry_core::image::CameraError;
 use ferry_core::panics;
 
 /// Why the workshop could not open.

@@ -10,10 +10,10 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use ferry_camera::{Camera, CameraError, Gpu, Subject, VIEW_PX};
+use ferry_camera::{Camera, Gpu};
 use ferry_core::control::TargetStep;
 use ferry_core::geometry::{Band, Point2, Point3, Rect};
-use ferry_core::image::CameraMount;
+use ferry_core::image::{CameraError, CameraMount, Subject, VIEW_PX};
 use ferry_core::map::READER;
 use ferry_core::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
 use ferry_core::plant::{BEAD_RADIUS_M, Positioner, PositionerKind};

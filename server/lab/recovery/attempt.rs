@@ -8,7 +8,7 @@ use utoipa::ToSchema;
 
 use crate::evaluate::EvaluateError;
 use crate::program::{self, Carrier};
-use ferry_camera::ImageSource;
+use ferry_core::image::ImageSource;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::trial::{Beginning, Origin, Phase, Sink, Timed, TrialError};
 

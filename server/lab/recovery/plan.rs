@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::{Recovery, RecoveryError, RecoveryQuery, Start};
 use crate::program::Program;
-use ferry_camera::{Camera, CameraError, Gpu};
+use ferry_camera::{Camera, Gpu};
+use ferry_core::image::CameraError;
 use ferry_core::map::MapError;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::{ControllerName, RandomTrialError, SetError, ShippedError};
