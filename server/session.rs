@@ -1,6 +1,6 @@
 //! A session on a real clock, in a thread of its own: commands in, views and records out.
 //!
-//! Only this thread holds the [`Session`](ferry_core::session::Session), which is a state machine. Holders of a
+//! Only this thread holds the [`Session`], which is a state machine. Holders of a
 //! [`SessionHandle`] send commands through a bounded queue (a full queue refuses) and watch views. A slow watcher sees only
 //! the newest view.
 

@@ -1,7 +1,7 @@
 //! URScript as far as it is carried out: calls of these functions with literal arguments.
 //!
 //! `movej`, `movel`, `servoj`, `speedj`, `speedl`, `stopj`, `stopl`, `sleep`, `write_output_integer_register`, `set_tcp` with
-//! Ferry's tool, `halt`, and functions [without an effect](WITHOUT_EFFECT); alone, or in a program between `def name():` or
+//! Ferry's tool, `halt`, and functions without an effect; alone, or in a program between `def name():` or
 //! `sec name():` and `end`. Names and defaults are those of "The URScript Programming Language", version 3.15.
 
 mod reader;

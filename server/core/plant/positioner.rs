@@ -157,7 +157,7 @@ impl Positioner {
     }
 
     /// How far the tool is turned about the vertical, which is the twist of its rotation; 0 if it is less than
-    /// [`LEAST_TURN_RAD`].
+    /// `LEAST_TURN_RAD`.
     pub fn turn_rad(&self) -> f64 {
         let [_, _, z, w]: [f64; 4] = self.base_from_tool().rotation.coords.into();
         let turn_rad = 2.0 * z.atan2(w);
