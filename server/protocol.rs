@@ -5,6 +5,7 @@
 //! [`BINARY_CAMERA_JPEG`] or [`BINARY_OBSERVATION`], three bytes of zero, the tick as u32
 //! little-endian, then the payload.
 
+mod answer;
 mod challenges;
 mod client;
 mod comparison;
@@ -29,6 +30,7 @@ mod trainings;
 mod typescript;
 mod workspace;
 
+pub use answer::{DoneMessage, Refusal, RefusedMessage};
 pub use challenges::{
     AttemptAnswer, AttemptQuery, AttemptReport, AttemptStanding, BoardEntry, ChallengeReport, ChallengeSummary,
     Challenges, GhostMessage, Ghosts, MishapMessage, Period, TraceMessage,
@@ -47,6 +49,7 @@ pub use layers::{
 };
 pub use lumen::{Lumen, WallRing};
 pub use maps::{MapCheck, MapFacts, MapReport, NarrowPlace};
+pub use parse::Envelope;
 pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};

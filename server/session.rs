@@ -40,6 +40,8 @@ const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 /// The newest state of a session and of what is connected with it, for watchers.
 #[derive(Clone, Debug)]
 pub struct View {
+    /// Counts the views of the session.
+    pub number: u64,
     pub session: ferry_core::session::View,
     /// The program that was selected last.
     pub program: Option<Arc<Program>>,

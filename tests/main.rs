@@ -1,6 +1,7 @@
 //! Integration tests, in one binary so that they are linked once.
 
 mod access;
+mod answers;
 mod attempts;
 mod calculator;
 mod cases;

@@ -3,6 +3,7 @@
 mod comparison;
 mod hand;
 mod hub;
+mod seat;
 mod seats;
 
 use std::sync::Arc;
@@ -12,17 +13,19 @@ use axum::extract::State;
 use axum::extract::ws::Message;
 use axum::http::StatusCode;
 use axum::response::Response;
-use futures_util::StreamExt;
+use futures_util::future::BoxFuture;
 use futures_util::stream::FuturesUnordered;
+use futures_util::{FutureExt, StreamExt};
 use serde::Deserialize;
 use tokio::sync::broadcast::error::RecvError;
-use tokio::sync::{oneshot, watch};
+use tokio::sync::{broadcast, oneshot, watch};
 use tokio::time::Instant;
 use utoipa::IntoParams;
 
 use self::hand::Hand;
 use self::hub::json;
 pub use self::hub::{CameraWatch, Encoded, Hub};
+use self::seat::Seat;
 use self::seats::Seats;
 use super::Server;
 use super::access::Token;
@@ -30,11 +33,11 @@ use super::path::{Path, Query, SessionPath};
 use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
 use super::socket::{Incoming, Limits, Socket, Upgrade};
-use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, MAX_MESSAGE_BYTES, ServerMessage};
+use crate::protocol::{ClientMessage, DoneMessage, Envelope, EventMessage, MAX_MESSAGE_BYTES, Refusal, ServerMessage};
 use crate::session::CommandError;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Command;
-use ferry_core::trial::Case;
+use ferry_core::trial::{Case, Event};
 
 const LIMITS: Limits = Limits { message_bytes: MAX_MESSAGE_BYTES, ping_every: Duration::from_secs(15) };
 /// Of a browser that joins when [`LARGE_SEATS`] are taken: room for everything but test cases.
@@ -90,26 +93,6 @@ fn refused_seat() -> Problem {
     Problem::new(StatusCode::BAD_REQUEST, "malformed", detail).field("seat")
 }
 
-/// A place among a session's browsers. Dropping it frees the place, also if the upgrade fails.
-struct Seat {
-    own: u64,
-    /// Known to its browser only.
-    key: String,
-    hub: Arc<Hub>,
-}
-
-impl Seat {
-    fn take(hub: &Arc<Hub>, key: String) -> Option<Self> {
-        Some(Self { own: hub.reseat(Seats::join)?, key, hub: hub.clone() })
-    }
-}
-
-impl Drop for Seat {
-    fn drop(&mut self) {
-        self.hub.reseat(|seats, now| seats.leave(self.own, now));
-    }
-}
-
 struct Connection {
     seat: Seat,
     hub: Arc<Hub>,
@@ -118,13 +101,25 @@ struct Connection {
     /// Largest message from the browser.
     message_bytes: usize,
     hand: Arc<Hand>,
-    /// Answers of `step` commands. The connection does not wait for them: it goes on sending states, and reads `pause`.
-    stepping: FuturesUnordered<oneshot::Receiver<Result<(), CommandError>>>,
+    /// Answers of `step` commands, with the ids of their messages. The connection does not wait for them: it goes on sending
+    /// states, and reads `pause`.
+    stepping: FuturesUnordered<BoxFuture<'static, Stepped>>,
 }
 
-/// Versions of the newest messages that this browser has received.
-#[derive(Default)]
-struct Sent {
+/// The id of a `step`, and how it ended.
+type Stepped = (Option<u64>, Result<(), CommandError>);
+
+/// How a message was taken.
+enum Taken {
+    Done,
+    /// It is done when its ticks are.
+    Step(oneshot::Receiver<Result<(), CommandError>>),
+}
+
+/// Where the messages to the browser come from, and the versions of the newest ones that it has received.
+struct Outbox {
+    encoded: watch::Receiver<Encoded>,
+    events: broadcast::Receiver<Event>,
     scene_version: u64,
     past_version: u64,
     sight_version: u64,
@@ -146,29 +141,32 @@ impl Connection {
     }
 
     async fn run(&mut self) -> Result<(), axum::Error> {
-        let mut encoded = self.hub.encoded();
         let mut seats = self.hub.seats();
-        let mut events = self.hub.session.events();
         let mut comparison = self.hub.comparison();
         let mut closing = self.hub.closing();
-        let mut sent = Sent::default();
+        let mut out = Outbox {
+            encoded: self.hub.encoded(),
+            events: self.hub.session.events(),
+            scene_version: 0,
+            past_version: 0,
+            sight_version: 0,
+            seen_version: 0,
+        };
         let mut goes_on = true;
         let hand = self.hand.clone();
         let now = *seats.borrow_and_update();
         self.greet(&now).await?;
-        let first = encoded.borrow_and_update().clone();
-        sent.past_version = first.past_version;
-        self.send_newest(&first, &mut sent).await?;
+        out.past_version = out.encoded.borrow().past_version;
+        self.send_newest(&mut out).await?;
         self.send_history(&mut comparison).await?;
         loop {
             tokio::select! {
-                changed = encoded.changed(), if goes_on => {
+                changed = out.encoded.changed(), if goes_on => {
                     // An ended session is still shown, with the reason.
                     goes_on = changed.is_ok();
-                    let newest = encoded.borrow_and_update().clone();
-                    self.send_newest(&newest, &mut sent).await?;
+                    self.send_newest(&mut out).await?;
                 }
-                event = events.recv() => match event {
+                event = out.events.recv() => match event {
                     Ok(event) => self.send_message(&ServerMessage::Event(EventMessage::from(&event))).await?,
                     // The browser is too slow for every message; the newest ones follow.
                     Err(RecvError::Lagged(_)) => {}
@@ -192,16 +190,17 @@ impl Connection {
                     self.greet(&now).await?;
                 }
                 message = self.socket.next() => match message? {
-                    Some(Incoming::Text(text)) => self.handle(&text).await?,
-                    Some(Incoming::Binary) => self.refuse("malformed", "binary messages are not understood", None).await?,
+                    Some(Incoming::Text(text)) => self.handle(&text, &mut out).await?,
+                    Some(Incoming::Binary) => {
+                        let refusal = Refusal::new("malformed", "binary messages are not understood", None);
+                        self.refuse(None, refusal).await?;
+                    }
                     None => return Ok(()),
                 },
-                Some(Ok(Err(error))) = self.stepping.next() => {
-                    self.send_message(&ServerMessage::Error(ErrorMessage::from(&error))).await?;
-                }
+                Some((id, stepped)) = self.stepping.next() => self.answer(id, stepped.map_err(Refusal::from), &mut out).await?,
                 () = hand.silenced.notified() => {
                     let message = format!("no message from the page that holds the bead for {} s: the bead was released and the session paused", hand::SILENCE.as_secs());
-                    self.refuse("hand_silent", &message, None).await?;
+                    self.refuse(None, Refusal::new("hand_silent", &message, None)).await?;
                 }
                 () = async { drop(closing.wait_for(|&closed| closed).await) } => return self.socket.close("the session was closed").await,
             }
@@ -213,25 +212,26 @@ impl Connection {
         self.send_message(&ServerMessage::Hello(hello)).await
     }
 
-    async fn send_newest(&mut self, newest: &Encoded, sent: &mut Sent) -> Result<(), axum::Error> {
-        if sent.scene_version != newest.scene_version {
-            sent.scene_version = newest.scene_version;
-            self.socket.feed(Message::Text(newest.scene.clone())).await?;
-            if sent.past_version != newest.past_version {
-                sent.past_version = newest.past_version;
+    async fn send_newest(&mut self, out: &mut Outbox) -> Result<(), axum::Error> {
+        let newest = out.encoded.borrow_and_update().clone();
+        if out.scene_version != newest.scene_version {
+            out.scene_version = newest.scene_version;
+            self.socket.feed(Message::Text(newest.scene)).await?;
+            if out.past_version != newest.past_version {
+                out.past_version = newest.past_version;
                 self.send_events(true).await?;
             }
         }
-        self.socket.feed(Message::Text(newest.state.clone())).await?;
-        if sent.sight_version != newest.sight_version {
-            sent.sight_version = newest.sight_version;
-            self.socket.feed(Message::Text(newest.overlay.clone())).await?;
-            if sent.seen_version != newest.seen_version {
-                sent.seen_version = newest.seen_version;
-                self.socket.feed(Message::Text(newest.seen.clone())).await?;
+        self.socket.feed(Message::Text(newest.state)).await?;
+        if out.sight_version != newest.sight_version {
+            out.sight_version = newest.sight_version;
+            self.socket.feed(Message::Text(newest.overlay)).await?;
+            if out.seen_version != newest.seen_version {
+                out.seen_version = newest.seen_version;
+                self.socket.feed(Message::Text(newest.seen)).await?;
             }
-            self.socket.feed(Message::Binary(newest.camera.clone())).await?;
-            self.socket.feed(Message::Binary(newest.observation.clone())).await?;
+            self.socket.feed(Message::Binary(newest.camera)).await?;
+            self.socket.feed(Message::Binary(newest.observation)).await?;
         }
         self.socket.flush().await
     }
@@ -259,11 +259,51 @@ impl Connection {
         self.socket.flush().await
     }
 
-    async fn handle(&mut self, text: &str) -> Result<(), axum::Error> {
-        let (message, epoch) = match ClientMessage::parse_with_epoch(text) {
-            Ok(parsed) => parsed,
-            Err(error) => return self.send_message(&ServerMessage::Error(error)).await,
+    async fn handle(&mut self, text: &str, out: &mut Outbox) -> Result<(), axum::Error> {
+        let (Envelope { id, epoch }, message) = ClientMessage::parse_with_envelope(text);
+        let taken = match message {
+            Ok(message) => self.take(message, epoch).await,
+            Err(error) => Err(error.into()),
         };
+        // A command that waited for the end of a `step` is answered after it.
+        while let Some(Some((id, stepped))) = self.stepping.next().now_or_never() {
+            self.answer(id, stepped.map_err(Refusal::from), out).await?;
+        }
+        match taken {
+            Ok(Taken::Done) => self.answer(id, Ok(()), out).await,
+            Ok(Taken::Step(stepped)) => {
+                let ended = async move { (id, stepped.await.unwrap_or(Err(CommandError::Ended))) };
+                self.stepping.push(Box::pin(ended));
+                Ok(())
+            }
+            Err(refusal) => self.answer(id, Err(refusal), out).await,
+        }
+    }
+
+    /// Answers a message, after all that shows its effect.
+    async fn answer(
+        &mut self,
+        id: Option<u64>,
+        taken: Result<(), Refusal>,
+        out: &mut Outbox,
+    ) -> Result<(), axum::Error> {
+        let id = match (taken, id) {
+            (Err(refusal), id) => return self.refuse(id, refusal).await,
+            (Ok(()), None) => return Ok(()),
+            (Ok(()), Some(id)) => id,
+        };
+        let view = self.hub.session.watch().borrow().clone();
+        // A session that has ended is no longer encoded.
+        if out.encoded.wait_for(|encoded| encoded.view >= view.number).await.is_ok() {
+            self.send_newest(out).await?;
+        }
+        while let Ok(event) = out.events.try_recv() {
+            self.send_message(&ServerMessage::Event(EventMessage::from(&event))).await?;
+        }
+        self.send_message(&ServerMessage::Done(DoneMessage { id, trial: view.scenery.trial })).await
+    }
+
+    async fn take(&mut self, message: ClientMessage, epoch: Option<u64>) -> Result<Taken, Refusal> {
         let own = self.seat.own;
         match message {
             ClientMessage::TakeControl {} => self.hub.reseat(|seats, now| seats.take(own, now)),
@@ -275,22 +315,21 @@ impl Connection {
                 let seats = *self.hub.seats().borrow();
                 if seats.operator != Some(own) {
                     let text = "another browser has control; take control first";
-                    return self.refuse("not_operator", text, None).await;
+                    return Err(Refusal::new("not_operator", text, None));
                 }
                 if let Some(meant) = epoch.filter(|&epoch| epoch != seats.epoch) {
                     let text = format!("epoch is {meant}, but another browser took control; it is now {}", seats.epoch);
-                    return self.refuse("stale_epoch", &text, Some("epoch")).await;
+                    return Err(Refusal::new("stale_epoch", &text, Some("epoch")));
                 }
-                match self.obey(message).await {
-                    Ok(()) => self.hub.reseat(Seats::command),
-                    Err(error) => return self.send_message(&ServerMessage::Error(ErrorMessage::from(&error))).await,
-                }
+                let taken = self.obey(message).await?;
+                self.hub.reseat(Seats::command);
+                return Ok(taken);
             }
         }
-        Ok(())
+        Ok(Taken::Done)
     }
 
-    async fn obey(&mut self, message: ClientMessage) -> Result<(), CommandError> {
+    async fn obey(&mut self, message: ClientMessage) -> Result<Taken, CommandError> {
         let holds = match message {
             ClientMessage::Drag { .. } => Some(true),
             ClientMessage::Release {} => Some(false),
@@ -324,10 +363,14 @@ impl Connection {
                 let twin = self.server.sessions.twin_of(&self.hub.id).ok_or(CommandError::NoRobot)?;
                 twin.hold(press, Instant::now().into_std())?;
                 // The page's hand on the bead is another matter.
-                return Ok(());
+                return Ok(Taken::Done);
             }
             message => match message.command() {
-                Some(command @ Command::Step(_)) => self.stepping.push(self.hub.session.begin(command)?),
+                Some(command @ Command::Step(_)) => {
+                    let stepped = self.hub.session.begin(command)?;
+                    self.hand.commanded(holds);
+                    return Ok(Taken::Step(stepped));
+                }
                 Some(command) => {
                     let begins_attempt = matches!(command, Command::Play(_));
                     self.hub.session.send(command).await?;
@@ -339,12 +382,15 @@ impl Connection {
             },
         }
         self.hand.commanded(holds);
-        Ok(())
+        Ok(Taken::Done)
     }
 
-    async fn refuse(&mut self, code: &str, message: &str, field: Option<&str>) -> Result<(), axum::Error> {
-        let (code, message, field) = (code.to_owned(), message.to_owned(), field.map(str::to_owned));
-        self.send_message(&ServerMessage::Error(ErrorMessage { code, message, field })).await
+    async fn refuse(&mut self, id: Option<u64>, refusal: Refusal) -> Result<(), axum::Error> {
+        self.send_message(&match id {
+            Some(id) => ServerMessage::Refused(refusal.of(id)),
+            None => ServerMessage::Error(refusal.message),
+        })
+        .await
     }
 
     async fn send_message(&mut self, message: &ServerMessage) -> Result<(), axum::Error> {

@@ -8,16 +8,32 @@ use super::{ClientMessage, ErrorMessage, ProgramAnswer};
 impl ClientMessage {
     /// Parses a text frame.
     pub fn parse(text: &str) -> Result<Self, ErrorMessage> {
-        Self::parse_with_epoch(text).map(|(message, _)| message)
+        Self::parse_with_envelope(text).1
     }
 
-    /// The message, and the epoch of the lease that it was sent under, if it has one (see [`super::Hello::epoch`]).
-    pub fn parse_with_epoch(text: &str) -> Result<(Self, Option<u64>), ErrorMessage> {
-        let mut fields = object(text)?;
-        let epoch = fields.remove("epoch").map(serde_json::from_value::<u64>).transpose();
-        let epoch = epoch.map_err(|error| malformed(format!("epoch: {error}"), Some("epoch".into())))?;
-        Ok((tagged(fields)?, epoch))
+    /// What a text frame carries besides its message, and the message.
+    pub fn parse_with_envelope(text: &str) -> (Envelope, Result<Self, ErrorMessage>) {
+        let mut fields = match object(text) {
+            Ok(fields) => fields,
+            Err(error) => return (Envelope::default(), Err(error)),
+        };
+        let mut number = |name: &str| {
+            let number = fields.remove(name).map(serde_json::from_value::<u64>).transpose();
+            number.map_err(|error| malformed(format!("{name}: {error}"), Some(name.to_owned())))
+        };
+        let (id, epoch) = (number("id"), number("epoch"));
+        let envelope = Envelope { id: id.clone().unwrap_or(None), epoch: epoch.clone().unwrap_or(None) };
+        (envelope, id.and(epoch).and_then(|_| tagged(fields)))
     }
+}
+
+/// What any message may carry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Envelope {
+    /// The message is answered with `done` or `refused`.
+    pub id: Option<u64>,
+    /// The epoch of the lease that it was sent under (see [`super::Hello::epoch`]).
+    pub epoch: Option<u64>,
 }
 
 impl ProgramAnswer {
@@ -88,9 +104,14 @@ mod tests {
         );
         assert_eq!(ClientMessage::parse(r#"{"type":"run"}"#).unwrap(), ClientMessage::Run {});
         assert_eq!(ClientMessage::parse(r#"{"type":"reset"}"#).unwrap(), ClientMessage::Reset { seed: None });
-        let told = ClientMessage::parse_with_epoch(r#"{"type":"run","epoch":7}"#).unwrap();
-        assert_eq!(told, (ClientMessage::Run {}, Some(7)));
-        assert_eq!(ClientMessage::parse_with_epoch(r#"{"type":"run"}"#).unwrap().1, None);
+        let enveloped = |text: &str| ClientMessage::parse_with_envelope(text);
+        let sent = enveloped(r#"{"type":"run","epoch":7,"id":3}"#);
+        assert_eq!(sent, (Envelope { id: Some(3), epoch: Some(7) }, Ok(ClientMessage::Run {})));
+        assert_eq!(enveloped(r#"{"type":"run"}"#).0, Envelope::default());
+        let (envelope, refused) = enveloped(r#"{"type":"fly","id":3}"#);
+        assert_eq!((envelope.id, refused.unwrap_err().field.as_deref()), (Some(3), Some("type")));
+        let (envelope, refused) = enveloped(r#"{"type":"run","id":-3}"#);
+        assert_eq!((envelope.id, refused.unwrap_err().field.as_deref()), (None, Some("id")));
     }
 
     #[test]

@@ -6,7 +6,8 @@ use utoipa::ToSchema;
 
 use super::lumen::wave_m;
 use super::{
-    AttemptStanding, ComparisonMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding, SeenMessage,
+    AttemptStanding, ComparisonMessage, DoneMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding,
+    RefusedMessage, SeenMessage,
 };
 use crate::session::View;
 use ferry_core::geometry::{Point2, Polygon, Rect};
@@ -50,7 +51,12 @@ pub enum ServerMessage {
     Seen(SeenMessage),
     /// Progress of a comparison.
     Comparison(Box<ComparisonMessage>),
-    /// A message was refused; nothing changed.
+    /// A message with an `id` was carried out. The state, the scene and the events that show it were sent before; the answer
+    /// to `step` comes at its end, those to `fork` and `take_control` when they are accepted.
+    Done(DoneMessage),
+    /// A message with an `id` was refused; nothing changed.
+    Refused(RefusedMessage),
+    /// A message without an `id` was refused; nothing changed.
     Error(ErrorMessage),
 }
 

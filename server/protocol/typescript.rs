@@ -132,7 +132,20 @@ macro_rules! declared {
 fn modules() -> [(&'static str, Vec<Declaration>); 18] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
-        ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
+        (
+            "messages",
+            declared![
+                ClientMessage,
+                Role,
+                ServerMessage,
+                Hello,
+                EventKind,
+                EventMessage,
+                ErrorMessage,
+                DoneMessage,
+                RefusedMessage
+            ],
+        ),
         ("session", declared![SceneMessage, KeptRun, CaseSummary, StateMessage]),
         ("layers", declared![SensedObstacle, OverlayMessage, BlocksLayer, PlanLayer, SeenMessage, JudgementLayer]),
         ("comparison", declared![Branch, ComparisonMessage, MomentMessage]),

@@ -1,5 +1,7 @@
 //! Why a session refuses a command.
 
+use serde_json::Value;
+
 use super::{ANSWER_WITHIN, COMMAND_QUEUE};
 use ferry_core::session::CommandError as SessionError;
 use ferry_ur::twin::DriveError;
@@ -34,4 +36,19 @@ pub enum CommandError {
     /// The session has ended.
     #[error("the session has ended")]
     Ended,
+}
+
+impl CommandError {
+    /// What was refused, by name, for programs.
+    pub fn values(&self) -> Vec<(&'static str, Value)> {
+        match self {
+            Self::Session(error) => error.values(),
+            Self::NoProgram { name } => vec![("program", name.as_str().into())],
+            Self::NoTry { recovery, cell, repeat } => {
+                vec![("recovery", recovery.as_str().into()), ("cell", (*cell).into()), ("repeat", (*repeat).into())]
+            }
+            Self::NoGoal { tick } => vec![("tick", (*tick).into())],
+            Self::NoRobot | Self::Drive(_) | Self::Busy | Self::Unanswered | Self::Ended => Vec::new(),
+        }
+    }
 }

@@ -50,7 +50,7 @@ impl<E: ImageSource> SessionThread<E> {
         events: broadcast::Sender<Event>,
         interrupted: Arc<AtomicBool>,
     ) -> (Self, watch::Receiver<Arc<View>>) {
-        let first = View { session: session.view(), program: None, robot: None, twin: None, ended: None };
+        let first = View { number: 0, session: session.view(), program: None, robot: None, twin: None, ended: None };
         let (view, watched) = watch::channel(Arc::new(first));
         let thread = Self {
             session,
@@ -71,7 +71,9 @@ impl<E: ImageSource> SessionThread<E> {
     }
 
     pub(super) fn publish(&self) {
+        let number = self.view.borrow().number + 1;
         self.view.send_replace(Arc::new(View {
+            number,
             session: self.session.view(),
             program: self.program.selected().cloned(),
             robot: self.robots.robot_standing(),
@@ -92,6 +94,7 @@ impl<E: ImageSource> SessionThread<E> {
         };
         tracing::error!(reason, "session ended");
         let mut last = View::clone(&self.view.borrow());
+        last.number += 1;
         last.session.running = false;
         last.ended = Some(reason);
         self.view.send_replace(Arc::new(last));

@@ -1,7 +1,10 @@
 //! Why a session refuses a command.
 
+use serde_json::Value;
+
 use crate::challenge::ChallengeError;
 use crate::map::MapError;
+use crate::scenario::ParameterError;
 use crate::trial::{CaseError, InputError, TrialError};
 
 /// Why a command was refused; the session is unchanged.
@@ -89,6 +92,21 @@ impl CommandError {
             Self::NoRun { .. } => Some("run"),
             Self::NothingCarried { .. } => Some("tick"),
             Self::Trial(_) | Self::NoChallenge | Self::Forgotten => None,
+        }
+    }
+
+    /// What was refused, by name, for programs.
+    pub fn values(&self) -> Vec<(&'static str, Value)> {
+        match self {
+            Self::Input(error) | Self::Trial(TrialError::Input(error)) => error.values(),
+            Self::Trial(TrialError::Parameter(ParameterError { value, allowed, .. }))
+            | Self::Range { value, allowed, .. } => {
+                vec![("value", (*value).into()), ("allowed", allowed.as_str().into())]
+            }
+            Self::OtherDrawing { name } => vec![("name", name.as_str().into())],
+            Self::NoRun { number } => vec![("run", (*number).into())],
+            Self::NothingCarried { tick } => vec![("tick", (*tick).into())],
+            _ => Vec::new(),
         }
     }
 }

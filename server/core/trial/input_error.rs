@@ -1,5 +1,7 @@
 //! Why an input was refused.
 
+use serde_json::Value;
+
 use crate::control::Refusal;
 use crate::control::limits::JointRefusal;
 use crate::scenario::{ControllerName, DisturbanceError, ParameterError};
@@ -64,6 +66,25 @@ impl InputError {
             Self::NotProgram(_) => "not_program",
             Self::LongReason { .. } => "long_reason",
             Self::TooManyWait => "too_many_wait",
+        }
+    }
+
+    /// What was refused, by name, for programs.
+    pub fn values(&self) -> Vec<(&'static str, Value)> {
+        match *self {
+            Self::NotFinite { value, .. } => vec![("value", value.into())],
+            Self::OutsideWorkspace { x_m, y_m, .. } | Self::InWall { x_m, y_m, .. } => {
+                vec![("x_m", x_m.into()), ("y_m", y_m.into())]
+            }
+            Self::Parameter(ParameterError { value, ref allowed, .. })
+            | Self::Disturbance(DisturbanceError { value, ref allowed, .. }) => {
+                vec![("value", value.into()), ("allowed", allowed.as_str().into())]
+            }
+            Self::NotYou(controller) | Self::NotRobot(controller) | Self::NotProgram(controller) => {
+                vec![("controller", controller.as_str().into())]
+            }
+            Self::LongReason { bytes } => vec![("bytes", bytes.into())],
+            Self::Reach { .. } | Self::Joints(_) | Self::TooManyWait => Vec::new(),
         }
     }
 

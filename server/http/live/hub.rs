@@ -32,6 +32,8 @@ const BINARY_HEAD: usize = 8;
 /// The newest messages, ready to send. Parts that did not change are shared with the last one.
 #[derive(Clone)]
 pub struct Encoded {
+    /// Number of the view.
+    pub view: u64,
     pub state: Utf8Bytes,
     pub scene: Utf8Bytes,
     /// Incremented when `scene` changes.
@@ -312,6 +314,7 @@ struct Encoder {
 impl Encoder {
     fn encode(&mut self, view: &View, maps_version: u64, camera_due: bool) -> Encoded {
         let mut next = self.last.clone().unwrap_or_else(|| Encoded {
+            view: 0,
             state: Utf8Bytes::default(),
             scene: Utf8Bytes::default(),
             scene_version: 0,
@@ -324,6 +327,7 @@ impl Encoder {
             observation: Bytes::new(),
             sight_version: 0,
         });
+        next.view = view.number;
         next.state = json(&ServerMessage::State(Box::new(StateMessage::from(view))));
         let scene_version = Some((view.scenery.version, maps_version));
         if self.scene_version != scene_version {

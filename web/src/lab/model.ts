@@ -204,6 +204,10 @@ function withMessage(model: Model, message: ServerMessage): Model {
         message,
       );
     }
+    // Nothing that the page sends has an id.
+    case 'done':
+    case 'refused':
+      return model;
     case 'comparison':
       return message.trial === model.scene?.trial ? { ...model, comparison: message } : model;
     case 'error': {

@@ -39,7 +39,7 @@ export type Role = "operator" | "viewer";
 /**
  * What the server sends as text.
  */
-export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "error" } & ErrorMessage;
+export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & ErrorMessage;
 
 /**
  * See `ServerMessage::Hello`.
@@ -126,3 +126,41 @@ code: string,
  * For people: names the field and the value.
  */
 message: string, field?: string, };
+
+/**
+ * See `ServerMessage::Done`.
+ */
+export type DoneMessage = { 
+/**
+ * That of the message.
+ */
+id: number, 
+/**
+ * The trial that is shown then, as in the scene.
+ */
+trial: number, };
+
+/**
+ * See `ServerMessage::Refused`.
+ */
+export type RefusedMessage = { 
+/**
+ * That of the message.
+ */
+id: number, 
+/**
+ * For programs, such as `in_wall`.
+ */
+code: string, 
+/**
+ * The field of the message that it is about.
+ */
+field?: string, 
+/**
+ * What was refused, by name.
+ */
+values: Record<string, unknown>, 
+/**
+ * One sentence in English.
+ */
+detail: string, };
