@@ -43,8 +43,8 @@ function RoleBox(props: { lab: Session & Notices }): JSX.Element {
         class="small"
         classList={{ primary: !operator() || lab.hello()?.asked === true }}
         onClick={() => {
-          if (operator()) lab.send({ type: 'release_control' });
-          else takeControl(lab);
+          if (operator()) void lab.send('session', { type: 'release_control' });
+          else void takeControl(lab);
         }}
       >
         {operator() ? 'Release control' : 'Take control'}

@@ -132,8 +132,9 @@ it('runs shortcuts anywhere', async () => {
   }
   await keyboard(' ');
   await expect.poll(() => server.command('run')).toBeDefined();
-  await expect.poll(() => notice('workspace')?.textContent).toContain('No goal is set');
   server.state({ running: true });
+  server.done();
+  await expect.poll(() => notice('workspace')?.textContent).toContain('No goal is set');
   await expect.element(button('Pause')).toBeVisible();
   await keyboard(' ');
   await expect.poll(() => server.command('pause')).toBeDefined();

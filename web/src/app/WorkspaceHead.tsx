@@ -1,6 +1,7 @@
 // The head of the workspace: Positioner, view, layers, goal and disturbance buttons.
 
 import { For, Show, type JSX } from 'solid-js';
+import { CommandButton } from '../lab/CommandButton';
 import { LayerMenu } from './LayerMenu';
 import type { MapLayer } from '../plan/layer';
 import { VIEW_MODES, type ViewMode } from './viewMode';
@@ -78,16 +79,15 @@ export function WorkspaceHead(props: {
         <Show
           when={lab.steering.isActive() && !lab.state()?.goal_m}
           fallback={
-            <button
-              type="button"
+            <CommandButton
+              lab={lab}
+              at="workspace"
               class="small"
-              disabled={!lab.canOperate() || !lab.state()?.goal_m}
-              onClick={() => {
-                lab.send({ type: 'clear_goal' });
-              }}
+              disabled={!lab.state()?.goal_m}
+              command={() => ({ type: 'clear_goal' })}
             >
               Clear goal
-            </button>
+            </CommandButton>
           }
         >
           {/* A press steers here, so that a click cannot set the goal. */}

@@ -11,6 +11,7 @@ import type {
 } from '../net/protocol.gen';
 import { get, post } from '../net/requests';
 import { sessionPath } from '../net/session';
+import type { Answer } from './commands';
 import { challengePath } from './challenges';
 import type { Session, Trial } from './slices';
 
@@ -27,7 +28,7 @@ export interface Contest {
   readonly answer: Accessor<AttemptAnswer | undefined>;
   /** Why the newest request has no answer. */
   readonly error: Accessor<string | undefined>;
-  play(name: string): void;
+  play(name: string): Promise<Answer>;
   /** Puts the attempt on the board. Throws a refusal. */
   sign(player: string, group: string): Promise<void>;
 }
@@ -96,9 +97,7 @@ export function createContest(lab: Reads): Contest {
     report,
     answer,
     error,
-    play: (challenge) => {
-      lab.send({ type: 'play_challenge', challenge });
-    },
+    play: (challenge) => lab.send('playback', { type: 'play_challenge', challenge }),
     sign: async (player, group) => {
       const [of, ended, seat] = [name(), report()?.attempt, lab.hello()?.seat];
       if (of === undefined || !ended || seat === undefined) return;

@@ -1,11 +1,10 @@
 // Pending changes of the parameters, shared by all forms of the page.
 
-import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
+import { createEffect, createMemo, createSignal, type Accessor } from 'solid-js';
+import type { Parameters } from '../net/protocol.gen';
+import { createPending } from '../ui/pending';
 import { withFollowers } from './parameters';
-import type { ClientMessage, Parameters, SceneMessage } from '../net/protocol.gen';
-
-/** After this time without a confirmation, the page shows the server's value again. */
-const CONFIRM_MS = 2000;
+import type { Session, Trial } from './slices';
 
 export interface Edits {
   /** The server's values with pending edits. */
@@ -14,46 +13,44 @@ export interface Edits {
   readonly shown: Accessor<Parameters | undefined>;
   /** The value of a moving slider, which is not sent. */
   readonly moving: Accessor<Partial<Parameters>>;
+  readonly isPending: (name: keyof Parameters) => boolean;
   move(change: Partial<Parameters>): void;
   /** Sends a change. */
   edit(change: Partial<Parameters>): void;
 }
 
-interface Session {
-  readonly scene: Accessor<SceneMessage | undefined>;
-  readonly refusals: Accessor<number>;
-  readonly canOperate: Accessor<boolean>;
-  send(message: ClientMessage): void;
+type Reads = Pick<Session, 'canOperate' | 'send'> & Pick<Trial, 'scene'>;
+type Change = Readonly<Partial<Parameters>>;
+
+/** What a newer change has beyond one that was answered. */
+function beyond(wanted: Change, sent: Change): Change | undefined {
+  const left = Object.entries(wanted).filter(
+    ([name, value]) => sent[name as keyof Parameters] !== value,
+  );
+  return left.length > 0 ? Object.fromEntries(left) : undefined;
 }
 
-/** An edit is dropped when the server's parameters agree with it or when the server refuses it. */
-export function createEdits(session: Session): Edits {
-  const [edits, setEdits] = createSignal<Partial<Parameters>>({});
-  const [moving, setMoving] = createSignal<Partial<Parameters>>({});
-  const truth = createMemo(() => session.scene()?.parameters);
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  const drop = (): void => {
-    setEdits({});
-  };
-  createEffect(
-    on(truth, (now) => {
-      const open = Object.entries(edits()).filter(
-        ([name, value]) => now?.[name as keyof Parameters] !== value,
-      );
-      setEdits(Object.fromEntries(open));
-    }),
+export function createEdits(lab: Reads): Edits {
+  const [moving, setMoving] = createSignal<Change>({});
+  const truth = createMemo(() => lab.scene()?.parameters);
+  const none: Change = {};
+  const edits = createPending<Change>(
+    () => none,
+    async (change) => {
+      const now = truth();
+      if (now) {
+        await lab.send('controller', { type: 'configure', parameters: { ...now, ...change } });
+      }
+    },
+    beyond,
   );
-  createEffect(on(session.refusals, drop, { defer: true }));
   createEffect(() => {
     // A slider that is disabled while the user moves it reports no release.
-    if (!session.canOperate()) setMoving({});
-  });
-  onCleanup(() => {
-    clearTimeout(timer);
+    if (!lab.canOperate()) setMoving({});
   });
   const values = createMemo(() => {
     const now = truth();
-    return now && { ...now, ...edits() };
+    return now && { ...now, ...edits.value() };
   });
   return {
     values,
@@ -62,18 +59,13 @@ export function createEdits(session: Session): Edits {
       return now && { ...now, ...moving() };
     }),
     moving,
-    move: (change) => {
-      setMoving(change);
-    },
+    isPending: (name) => name in edits.value(),
+    move: setMoving,
     edit: (change) => {
       const now = values();
       if (!now) return;
-      const whole = withFollowers(now, change);
       setMoving({});
-      setEdits({ ...edits(), ...whole });
-      session.send({ type: 'configure', parameters: { ...now, ...whole } });
-      clearTimeout(timer);
-      timer = setTimeout(drop, CONFIRM_MS);
+      edits.choose({ ...edits.value(), ...withFollowers(now, change) });
     },
   };
 }

@@ -8,8 +8,10 @@ import {
   BINARY_OBSERVATION,
   type ClientMessage,
   type EventMessage,
+  type ServerMessage,
 } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
+import { type Answer, Commands, type Streamed } from './commands';
 import { createComparison } from './comparison';
 import { createContest } from './contest';
 import { createEdits } from './edits';
@@ -19,12 +21,18 @@ import { frameScheduler, Inbox } from './inbox';
 import { createKeeper } from './keepControl';
 import { createLayerChoice, type KnownLayer } from './layers';
 import { EMPTY, type Input, type Model, reduce } from './model';
+import type { Place } from './places';
 import type { Sight } from './sight';
 import type { Lab } from './slices';
 import { createSteering } from './steering';
 import { createWalls } from './walls';
 import { tabStorage } from '../ui/storage';
 import { pathOf } from '../net/base';
+
+type AnswerMessage = Extract<ServerMessage, { type: 'done' | 'refused' }>;
+
+const isAnswer = (message: ServerMessage): message is AnswerMessage =>
+  message.type === 'done' || message.type === 'refused';
 
 export function createLab(page: Location, knownLayers: readonly KnownLayer[]): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
@@ -51,7 +59,8 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
 
   const flush = (): void => {
     const before = model();
-    const after = inbox.take().reduce(reduce, before);
+    const inputs = inbox.take();
+    const after = inputs.reduce(reduce, before);
     remember(before, after);
     batch(() => {
       setModel(after);
@@ -61,6 +70,14 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
       if (newObservation) setObservation(newObservation);
       pictures.clear();
     });
+    // What they answer is shown now.
+    for (const input of inputs) {
+      if (input.type === 'connection') {
+        if (input.connection.kind !== 'live') commands.lose();
+      } else if (input.type === 'message' && isAnswer(input.message)) {
+        commands.answer(input.message);
+      }
+    }
     if (!inbox.isEmpty) schedule();
   };
   const schedule = frameScheduler(flush);
@@ -70,7 +87,11 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   };
 
   const name = sessionOf(page);
-  const keeper = createKeeper(name, tabStorage(), () => socket.send({ type: 'take_control' }));
+  const keeper = createKeeper(
+    name,
+    tabStorage(),
+    () => void send('session', { type: 'take_control' }),
+  );
   const socket = connect(
     {
       address: () => liveAddress(page, name, keeper.seat()),
@@ -91,6 +112,10 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
       },
       message: (message) => {
         if (message.type === 'hello') keeper.hello(message);
+        if (message.type === 'refused') {
+          const place = commands.placeOf(message.id);
+          if (place) take({ type: 'refused', place, refusal: message });
+        }
         take({ type: 'message', message });
       },
       picture: (picture) => {
@@ -100,24 +125,29 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     },
   );
 
+  const commands = new Commands((message) => socket.send(message));
+
   const part = <K extends keyof Model>(key: K) => createMemo(() => model()[key]);
   const connection = part('connection');
   const hello = part('hello');
   const scene = part('scene');
   const state = part('state');
-  const refusals = part('refusals');
   const ended = createMemo(() => state()?.ended ?? undefined);
   const canOperate = createMemo(
     () => connection().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
   );
-  const send = (message: ClientMessage): void => {
-    // `release` is sent blindly when a hold ends; a lost connection has released the bead already.
-    if (socket.send(message)) take({ type: 'sent', command: message.type });
+  const send = (at: Place, message: ClientMessage): Promise<Answer> => {
+    take({ type: 'sent', place: at });
     if (message.type === 'fork') comparison.show();
+    return commands.send(at, message);
+  };
+  // Sent blindly: a lost connection has released the bead already.
+  const stream = (message: Streamed): void => {
+    socket.send(message);
   };
   const comparison = createComparison(part('comparison'), () => scene()?.tick_s ?? Infinity);
   const [sight, setSight] = createSignal<Sight>('all');
-  const steering = createSteering({ scene, state, canOperate, send });
+  const steering = createSteering({ scene, state, canOperate, stream });
   // The choice belongs to the controller You: with another one, the page has no way back.
   createEffect(() => {
     if (state()?.controller !== 'you') setSight('all');
@@ -125,7 +155,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   const notify: Lab['notify'] = (place, text) => {
     take({ type: 'notice', place, text });
   };
-  const edits = createEdits({ scene, refusals, canOperate, send });
+  const edits = createEdits({ scene, canOperate, send });
   return {
     session: name,
     connection,
@@ -133,8 +163,8 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     ended,
     canOperate,
     isReturning: () => keeper.isReturning(),
-    refusals,
     send,
+    stream,
     scene,
     state,
     goal: createGoal(state),

@@ -1,11 +1,12 @@
+import type { Answer } from './commands';
 import type { Session, Trial } from './slices';
 
 /** Starts a trial on another map with the present parameters. */
-export function loadMap(lab: Session & Trial, map: string): void {
+export async function loadMap(lab: Session & Trial, map: string): Promise<Answer | undefined> {
   const scene = lab.scene();
   const state = lab.state();
-  if (!scene || !state) return;
-  lab.send({
+  if (!scene || !state) return undefined;
+  return lab.send('playback', {
     type: 'load_scenario',
     map,
     controller: state.controller,

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
+import type { Place } from './places';
 import { EMPTY, type Input, LOG_LINES, type Model, reduce } from './model';
-import { placeOfError } from './places';
 import { type EventMessage, PROTOCOL_VERSION, type ServerMessage } from '../net/protocol.gen';
 import { comparisonOf, sceneOf, stateAt } from './testing';
 
@@ -125,9 +125,8 @@ describe('a comparison', () => {
 describe('the log', () => {
   it('counts repeated lines', () => {
     const refusal = message({ type: 'error', code: 'in_wall', message: 'In a wall.' });
-    const { log, refusals } = play(refusal, refusal, refusal);
+    const { log } = play(refusal, refusal, refusal);
     expect(log.map(({ text, count }) => [text, count])).toEqual([['In a wall.', 3]]);
-    expect(refusals).toBe(3);
   });
 
   it('is limited and gives each line a unique id', () => {
@@ -153,46 +152,27 @@ describe('the log', () => {
 });
 
 describe('a refusal', () => {
-  const error = (field?: string): Parameters<typeof placeOfError>[0] => ({
-    code: 'bad',
-    message: 'no',
-    ...(field === undefined ? {} : { field }),
+  const refused = (place: Place): Input => ({
+    type: 'refused',
+    place,
+    refusal: { id: 1, code: 'in_wall', field: 'x_m', values: {}, detail: 'In a wall.' },
   });
+  const sent = (place: Place): Input => ({ type: 'sent', place });
 
-  it('appears at its field', () => {
-    const model = play(scene(), { type: 'sent', command: 'run' });
-    expect(placeOfError(error('x_m'), model)).toBe('workspace');
-    expect(placeOfError(error('parameters.threshold_m'), model)).toBe('controller');
-    expect(placeOfError(error('seed'), model)).toBe('playback');
-  });
-
-  it('without a field appears at the last command', () => {
-    expect(placeOfError(error(), play({ type: 'sent', command: 'drag' }))).toBe('workspace');
-    expect(placeOfError(error(), EMPTY)).toBe('session');
-  });
-
-  it('appears at the place of its code, if that is known', () => {
-    const stale = { ...error('epoch'), code: 'stale_epoch' };
-    expect(placeOfError(stale, play({ type: 'sent', command: 'run' }))).toBe('session');
-  });
-
-  it('because of a silent hand is counted and stays when the hold ends', () => {
+  it('because of a silent hand is counted, and appears in the workspace', () => {
     const silent = message({ type: 'error', code: 'hand_silent', message: 'released' });
-    const model = play(silent, { type: 'sent', command: 'release' });
+    const model = play(silent);
     expect(model.silences).toBe(1);
     expect(model.notices.workspace?.text).toBe('released');
   });
 
   it('disappears with the next attempt or when dismissed, but a newer one stays', () => {
-    const refused = play(
-      { type: 'sent', command: 'set_goal' },
-      message({ type: 'error', code: 'in_wall', message: 'In a wall.', field: 'x_m' }),
-    );
-    const id = refused.notices.workspace?.id ?? 0;
-    expect(refused.notices.workspace?.text).toBe('In a wall.');
-    expect(reduce(refused, { type: 'sent', command: 'set_goal' }).notices).toEqual({});
-    expect(reduce(refused, { type: 'sent', command: 'run' }).notices.workspace).toBeDefined();
-    expect(reduce(refused, { type: 'dismiss', place: 'workspace', id }).notices).toEqual({});
-    expect(reduce(refused, { type: 'dismiss', place: 'workspace', id: id - 1 })).toBe(refused);
+    const model = play(sent('workspace'), refused('workspace'));
+    const id = model.notices.workspace?.id ?? 0;
+    expect(model.notices.workspace?.text).toBe('In a wall.');
+    expect(reduce(model, sent('workspace')).notices).toEqual({});
+    expect(reduce(model, sent('playback')).notices.workspace).toBeDefined();
+    expect(reduce(model, { type: 'dismiss', place: 'workspace', id }).notices).toEqual({});
+    expect(reduce(model, { type: 'dismiss', place: 'workspace', id: id - 1 })).toBe(model);
   });
 });

@@ -1,13 +1,13 @@
 // The page's data model, and how messages change it. Pure.
 
 import {
-  type ClientMessage,
   type ComparisonMessage,
   type EventKind,
   type EventMessage,
   type Hello,
   type OverlayMessage,
   PROTOCOL_VERSION,
+  type RefusedMessage,
   type SceneMessage,
   type SeenMessage,
   type ServerMessage,
@@ -16,9 +16,11 @@ import {
 import { withoutHashes } from '../net/problem';
 import type { Notice } from '../ui/NoticeBar';
 import { isSameEvent } from './eventStory';
-import { HAND_SILENT, type Place, PLACE_OF_COMMAND, placeOfError } from './places';
+import type { Place } from './places';
 import { restartText } from './restart';
 
+/** Error code: the server released the bead because it received nothing from the hand. */
+const HAND_SILENT = 'hand_silent';
 /** Largest number of log lines. */
 export const LOG_LINES = 300;
 /** Largest number of marks on the timeline. */
@@ -55,11 +57,8 @@ export interface Model {
   /** The last comparison of this trial, possibly still running. */
   readonly comparison: ComparisonMessage | undefined;
   readonly notices: Readonly<Partial<Record<Place, Notice>>>;
-  /** Grows with each refusal and each new connection, so that forms show the server's values again. */
-  readonly refusals: number;
   /** Grows when the server has released a bead because it received nothing from the hand. */
   readonly silences: number;
-  readonly lastCommand: ClientMessage['type'] | undefined;
   /** When the server opened the session of the last state. */
   readonly opened: string | undefined;
   readonly nextId: number;
@@ -68,7 +67,8 @@ export interface Model {
 export type Input =
   | { readonly type: 'connection'; readonly connection: ConnectionState }
   | { readonly type: 'message'; readonly message: ServerMessage }
-  | { readonly type: 'sent'; readonly command: ClientMessage['type'] }
+  | { readonly type: 'sent'; readonly place: Place }
+  | { readonly type: 'refused'; readonly place: Place; readonly refusal: RefusedMessage }
   | { readonly type: 'notice'; readonly place: Place; readonly text: string }
   | { readonly type: 'dismiss'; readonly place: Place; readonly id: number };
 
@@ -83,9 +83,7 @@ export const EMPTY: Model = {
   marks: [],
   comparison: undefined,
   notices: {},
-  refusals: 0,
   silences: 0,
-  lastCommand: undefined,
   opened: undefined,
   nextId: 1,
 };
@@ -117,6 +115,12 @@ function withNotice(model: Model, place: Place, tone: Notice['tone'], text: stri
   };
 }
 
+function withError(model: Model, place: Place, detail: string): Model {
+  const text = withoutHashes(detail);
+  const logged = withLine(model, 'error', text, model.state?.sim_time_s);
+  return withNotice(logged, place, 'error', text);
+}
+
 function withoutNotice(model: Model, place: Place): Model {
   if (!model.notices[place]) return model;
   const notices = Object.entries(model.notices).filter(([name]) => name !== place);
@@ -133,9 +137,7 @@ function withConnection(model: Model, connection: ConnectionState): Model {
   if (connection.kind === 'live' && model.connection.kind === 'lost') {
     // The session sends its events again.
     const own = model.log.filter((line) => line.kind === 'connection' || line.kind === 'error');
-    // Changes made while the connection was lost may not have arrived.
-    const refusals = next.refusals + 1;
-    const fresh = { ...next, log: own, marks: [], comparison: undefined, refusals };
+    const fresh = { ...next, log: own, marks: [], comparison: undefined };
     return withLine(fresh, 'connection', 'Connected again.', undefined);
   }
   return next;
@@ -204,26 +206,16 @@ function withMessage(model: Model, message: ServerMessage): Model {
         message,
       );
     }
-    // Nothing that the page sends has an id.
+    // For the page's commands.
     case 'done':
     case 'refused':
       return model;
     case 'comparison':
       return message.trial === model.scene?.trial ? { ...model, comparison: message } : model;
+    // What a hand does has no id.
     case 'error': {
-      const place = placeOfError(message, model);
-      const text = withoutHashes(message.message);
-      const logged = withLine(model, 'error', text, model.state?.sim_time_s);
-      return withNotice(
-        {
-          ...logged,
-          refusals: logged.refusals + 1,
-          silences: logged.silences + (message.code === HAND_SILENT ? 1 : 0),
-        },
-        place,
-        'error',
-        text,
-      );
+      const silences = model.silences + (message.code === HAND_SILENT ? 1 : 0);
+      return withError({ ...model, silences }, 'workspace', message.message);
     }
   }
 }
@@ -234,13 +226,11 @@ export function reduce(model: Model, input: Input): Model {
       return withConnection(model, input.connection);
     case 'message':
       return withMessage(model, input.message);
-    case 'sent': {
-      // A new attempt: drop the notice of the last one.
-      const place = PLACE_OF_COMMAND[input.command];
-      // The end of a hold is not an attempt: its notice stays.
-      if (input.command === 'release') return { ...model, lastCommand: input.command };
-      return { ...withoutNotice(model, place), lastCommand: input.command };
-    }
+    // A new attempt: drop the notice of the last one.
+    case 'sent':
+      return withoutNotice(model, input.place);
+    case 'refused':
+      return withError(model, input.place, input.refusal.detail);
     case 'notice':
       return withNotice(model, input.place, 'hint', input.text);
     case 'dismiss':

@@ -22,6 +22,6 @@ export function followChallengeLink(
     if (!lab.canOperate()) return;
     isDone = true;
     // A page that is loaded again goes on.
-    if (scene.challenge !== name) lab.contest.play(name);
+    if (scene.challenge !== name) void lab.contest.play(name);
   });
 }

@@ -29,7 +29,7 @@ export interface PageExperiment {
   /** Loads the experiment of the address. Takes control first if possible. */
   load(): void;
   /** Loads a link from this page, such as a preset. */
-  open(link: string): void;
+  open(link: string): Promise<void>;
   /** Dismisses the notice. */
   forget(): void;
 }
@@ -70,7 +70,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
       const { drawing } = experiment;
       const map =
         drawing === null ? experiment.map : await drawnMap(experiment.map, drawing, scene.maps);
-      lab.send(loadMessage({ ...experiment, map }, scene.defaults));
+      await lab.send('playback', loadMessage({ ...experiment, map }, scene.defaults));
     } catch (reason) {
       const why = reason instanceof Error ? reason.message : String(reason);
       lab.notify('playback', `The map of this link could not be added: ${why}`);
@@ -105,13 +105,13 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     load() {
       setWanted(true);
       if (lab.canOperate()) return;
-      takeControl(lab);
+      void takeControl(lab);
     },
-    open(link) {
+    async open(link) {
       const scene = lab.scene();
       if (!scene) return;
       const read = experimentFrom(link, scene);
-      if (read.kind === 'experiment') void send(read.experiment);
+      if (read.kind === 'experiment') await send(read.experiment);
       else if (read.kind === 'broken') lab.notify('playback', read.why);
     },
     forget,

@@ -3,6 +3,7 @@
 import type { Accessor } from 'solid-js';
 import type { Picture } from '../net/connection';
 import type { ClientMessage, EventMessage, Parameters } from '../net/protocol.gen';
+import type { Answer, Streamed } from './commands';
 import type { Comparison } from './comparison';
 import type { Contest } from './contest';
 import type { Edits } from './edits';
@@ -28,9 +29,10 @@ export interface Session {
   readonly canOperate: Accessor<boolean>;
   /** Whether the connection is new and the control that this page had before comes back. */
   isReturning(): boolean;
-  /** Grows with each refusal and each new connection, so that forms show the server's values again. */
-  readonly refusals: Accessor<number>;
-  send(message: ClientMessage): void;
+  /** Sends a command. The answer comes after its effect is shown; a refusal is shown at the place. */
+  send(at: Place, message: ClientMessage): Promise<Answer>;
+  /** Sends what a hand does, which has no answer. */
+  stream(message: Streamed): void;
 }
 
 export interface Trial {

@@ -34,7 +34,7 @@ describe('steering', () => {
         scene,
         state,
         canOperate: () => true,
-        send: (message) => sent.push(message),
+        stream: (message) => sent.push(message),
       }),
     );
     return { steering, sent, setState, setScene };

@@ -1,7 +1,6 @@
 // The tool in the user's hand, with the controller You: pointer, keys and gamepad point it to places.
 
 import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
-import type { ClientMessage } from '../net/protocol.gen';
 import { Limiter } from '../net/limiter';
 import { clampToRect, type Vec2 } from './geometry';
 import type { Session, Trial } from './slices';
@@ -36,8 +35,7 @@ export function joined(directions: Iterable<Vec2>): Vec2 {
   return length > 1 ? [x / length, y / length] : [x, y];
 }
 
-type Reads = Pick<Trial, 'scene' | 'state'> &
-  Pick<Session, 'canOperate'> & { send(message: ClientMessage): void };
+type Reads = Pick<Trial, 'scene' | 'state'> & Pick<Session, 'canOperate' | 'stream'>;
 
 export function createSteering(lab: Reads): Steering {
   const [target, setTarget] = createSignal<Vec2>();
@@ -46,7 +44,7 @@ export function createSteering(lab: Reads): Steering {
   let timer: ReturnType<typeof setInterval> | undefined;
   const isActive = createMemo(() => lab.state()?.controller === 'you' && lab.canOperate());
   const steers = new Limiter<Vec2>(1000 / MOST_PER_S, ([x_m, y_m]) => {
-    if (isActive()) lab.send({ type: 'steer', x_m, y_m, approach: approach() });
+    if (isActive()) lab.stream({ type: 'steer', x_m, y_m, approach: approach() });
   });
   const point = (at: Vec2): void => {
     const scene = lab.scene();

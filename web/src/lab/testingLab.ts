@@ -16,6 +16,7 @@ import {
   type ServerMessage,
   type StateMessage,
 } from '../net/protocol.gen';
+import type { Numbered } from './commands';
 import { createLab } from './lab';
 import type { KnownLayer } from './layers';
 import type { Lab } from './slices';
@@ -47,7 +48,8 @@ export function refusal(detail: string, field?: string): Response {
 /** Plays the server of one test. */
 export class FakeServer {
   /** Commands of the page, oldest first. */
-  readonly sent: ClientMessage[] = [];
+  readonly sent: Numbered[] = [];
+  private readonly open: number[] = [];
   /** Requests of the page, such as `GET /api/recordings`, oldest first. */
   readonly requests: string[] = [];
   private scenes = sceneOf('posts');
@@ -94,10 +96,22 @@ export class FakeServer {
     const scenario = { ...before, map, controller, ...rest };
     this.scene({ map, seed, parameters, scenario, trial: trial + 1 });
     this.state({ tick: 0, newest_tick: 0, controller, goal_m: goal_m && [...goal_m, 0] });
+    this.done();
   }
-  /** Refuses the newest command. */
-  refuse(code: string, message: string): void {
-    this.tell({ type: 'error', code, message });
+  /** Says that all open commands were carried out. */
+  done(): void {
+    const { trial } = this.scenes;
+    for (const id of this.open.splice(0)) this.tell({ type: 'done', id, trial });
+  }
+  /** Refuses the newest open command. */
+  refuse(code: string, detail: string): void {
+    const id = this.open.pop();
+    if (id === undefined) throw new Error('no command is open');
+    this.tell({ type: 'refused', id, code, values: {}, detail });
+  }
+  receive(message: Numbered): void {
+    this.sent.push(message);
+    if (message.id !== undefined) this.open.push(message.id);
   }
 
   opened(socket: FakeSocket): void {
@@ -140,7 +154,7 @@ class FakeSocket {
     });
   }
   send(text: string): void {
-    server.sent.push(JSON.parse(text) as ClientMessage);
+    server.receive(JSON.parse(text) as Numbered);
   }
   close(): void {
     this.readyState = WebSocket.CLOSED;

@@ -24,7 +24,7 @@ export interface Listener {
 
 export interface Connection {
   /** Returns whether the message was sent. */
-  send(message: ClientMessage): boolean;
+  send(message: ClientMessage & { readonly id?: number }): boolean;
 }
 
 type Page = Pick<Location, 'protocol' | 'host'>;
@@ -49,7 +49,7 @@ export interface Line {
   reopen(): Promise<{ readonly isOpen: boolean; readonly why?: string | undefined }>;
 }
 
-type Sent = ClientMessage & { readonly epoch?: number };
+type Sent = ClientMessage & { readonly id?: number; readonly epoch?: number };
 
 /** Doubles from half a second to eight seconds. `chance` in [0, 1) makes many browsers reconnect at different times. */
 export function backoffMs(attempt: number, chance: number): number {

@@ -25,7 +25,7 @@ export interface Hand {
 export function createHand(lab: Session & Trial & Notices, place: (at: Vec2) => void): Hand {
   const [drag, setDrag] = createSignal<DragState>(IDLE);
   const holds = new Repeater<{ at: Vec2; lift: boolean }>(STILL_THERE_MS, ({ at, lift }) => {
-    lab.send({ type: 'drag', x_m: at[0], y_m: at[1], lift });
+    lab.stream({ type: 'drag', x_m: at[0], y_m: at[1], lift });
   });
   const drags = new Limiter<{ at: Vec2; lift: boolean }>(1000 / MAX_DRAGS_PER_S, (wish) => {
     holds.say(wish);
@@ -46,7 +46,7 @@ export function createHand(lab: Session & Trial & Notices, place: (at: Vec2) => 
       if (effect.type === 'release') {
         drags.flush();
         holds.stop();
-        lab.send({ type: 'release' });
+        lab.stream({ type: 'release' });
       } else if (effect.type === 'goal') {
         place(effect.at);
       } else {

@@ -46,7 +46,8 @@ export function createInteraction(lab: Session & Trial & Notices, grabPx?: numbe
   };
   const setGoal = (at: Vec2): void => {
     // Beside the table, a click means nothing.
-    if (isOnTable(at) && hand.mayAct()) lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+    if (isOnTable(at) && hand.mayAct())
+      void lab.send('workspace', { type: 'set_goal', x_m: at[0], y_m: at[1] });
   };
   const place = (at: Vec2): void => {
     if (!picker.offer(at)) setGoal(at);

@@ -1,4 +1,4 @@
-// A notice at the panel whose control caused it. It disappears after some time.
+// A notice at the panel whose control caused it. A hint disappears after some time; an error stays until it is read.
 
 import { Show, createEffect, on, onCleanup, type JSX } from 'solid-js';
 import './NoticeBar.css';
@@ -25,7 +25,7 @@ export function NoticeBar(props: {
     on(
       () => props.notice,
       (now) => {
-        if (!now) return;
+        if (now?.tone !== 'hint') return;
         const timer = setTimeout(dismiss, SHOWN_MS);
         onCleanup(() => {
           clearTimeout(timer);

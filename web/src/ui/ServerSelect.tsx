@@ -1,21 +1,25 @@
-// A select that shows the server's value, also after the server refused a choice.
+// A select that shows the user's choice until the server has answered it, then the server's value.
 
 import { For, createEffect, createUniqueId, on, type JSX } from 'solid-js';
+import { createPending } from './pending';
 
-export function TruthSelect(props: {
+export function ServerSelect(props: {
   label: string;
   /** Whether to hide the label visually, because the first option is clear enough. */
   hideLabel?: boolean;
   value: string;
   options: readonly (readonly [value: string, label: string])[];
-  refusals: number;
   disabled: boolean;
-  onChoose: (value: string) => void;
+  onChoose: (value: string) => unknown;
 }): JSX.Element {
   const id = createUniqueId();
+  const choice = createPending(
+    () => props.value,
+    (value) => Promise.resolve(props.onChoose(value)),
+  );
   let select!: HTMLSelectElement;
   createEffect(
-    on([() => props.value, () => props.refusals, () => props.options], ([value]) => {
+    on([choice.value, () => props.options], ([value]) => {
       select.value = value;
     }),
   );
@@ -28,9 +32,10 @@ export function TruthSelect(props: {
         ref={select}
         id={id}
         disabled={props.disabled}
-        title={props.options.find(([value]) => value === props.value)?.[1]}
+        aria-busy={choice.isPending()}
+        title={props.options.find(([value]) => value === choice.value())?.[1]}
         onChange={(event) => {
-          props.onChoose(event.currentTarget.value);
+          choice.choose(event.currentTarget.value);
         }}
       >
         <For each={props.options}>{([value, label]) => <option value={value}>{label}</option>}</For>

@@ -114,7 +114,7 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
   const of = (period: Period | null): readonly ChallengeSummary[] =>
     (poll.data()?.challenges ?? []).filter((one) => one.period === period);
   const play = (name: string): void => {
-    lab.contest.play(name);
+    void lab.contest.play(name);
   };
   return (
     <>

@@ -1,6 +1,7 @@
 // The challenge that is being played: rules, ghosts, the result, and the board.
 
 import { For, Show, createMemo, type JSX } from 'solid-js';
+import { CommandButton } from '../../lab/CommandButton';
 import { boardPath, playQuery } from '../../lab/challenges';
 import { isOver } from '../../lab/contest';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
@@ -127,17 +128,15 @@ function Result(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.Ele
         {(lost) => (
           <>
             <p>{lost().words}</p>
-            <button
-              type="button"
+            <CommandButton
+              lab={lab}
+              at="playback"
               class="small"
-              disabled={!lab.canOperate()}
               title="Rewinds the session to the beginning of this time. The attempt stays as it is."
-              onClick={() => {
-                lab.send({ type: 'rewind', tick: lost().from_tick });
-              }}
+              command={() => ({ type: 'rewind', tick: lost().from_tick })}
             >
               Show this moment
-            </button>
+            </CommandButton>
           </>
         )}
       </Show>
@@ -159,29 +158,27 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
     <>
       <div class="challenge-head">
         <h3>{challengeTitle(props.name)}</h3>
-        <button
-          type="button"
+        <CommandButton
+          lab={lab}
+          at="playback"
           class="small"
-          disabled={!lab.canOperate()}
           title="Begins this challenge again"
-          onClick={() => {
-            contest.play(props.name);
-          }}
+          command={() => ({ type: 'play_challenge', challenge: props.name })}
         >
           From the start
-        </button>
-        <button
-          type="button"
+        </CommandButton>
+        <CommandButton
+          lab={lab}
+          at="playback"
           class="small"
-          disabled={!lab.canOperate()}
           title="Ends the challenge; the map stays"
-          onClick={() => {
+          command={() => {
             const map = lab.scene()?.map;
-            if (map !== undefined) lab.send({ type: 'load_scenario', map, controller: 'rl' });
+            return map === undefined ? undefined : { type: 'load_scenario', map, controller: 'rl' };
           }}
         >
           Other challenges
-        </button>
+        </CommandButton>
         <a
           class="button small"
           href={playQuery(props.name)}

@@ -1,6 +1,7 @@
 // The attempt, above the map: what to do, the clock, and how it ended.
 
 import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-js';
+import { CommandButton } from '../../lab/CommandButton';
 import { isOver } from '../../lab/contest';
 import type { ByHand, Contested, OpenTab, Session, Trial } from '../../lab/slices';
 import { seconds } from '../../ui/format';
@@ -17,18 +18,18 @@ function showResult(): void {
 function Again(props: { lab: StageLab; isPrimary: boolean }): JSX.Element {
   const { lab } = props;
   return (
-    <button
-      type="button"
+    <CommandButton
+      lab={lab}
+      at="playback"
       class="small"
       classList={{ primary: props.isPrimary }}
-      disabled={!lab.canOperate()}
-      onClick={() => {
-        const name = lab.contest.name();
-        if (name !== undefined) lab.contest.play(name);
+      command={() => {
+        const challenge = lab.contest.name();
+        return challenge === undefined ? undefined : { type: 'play_challenge', challenge };
       }}
     >
       Try again
-    </button>
+    </CommandButton>
   );
 }
 
@@ -51,7 +52,7 @@ export function StageBar(props: {
     return state !== undefined && state.tick < state.newest_tick;
   };
   const start = (): void => {
-    lab.send({ type: 'run' });
+    void lab.send('playback', { type: 'run' });
   };
   // The first movement of the hand starts the clock, too.
   const steers = createMemo(() => waits() && lab.steering.target() !== undefined);

@@ -1,6 +1,7 @@
 // Chooses controllers and starts a comparison.
 
 import { Show, createSignal, type JSX } from 'solid-js';
+import { CommandButton } from '../../lab/CommandButton';
 import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
 import { COMPARABLE, ControllerChecks, createOffered } from '../../lab/ControllerChecks';
 import { isFailure } from '../../lab/failure';
@@ -40,19 +41,19 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
         isChosen={(name) => chosen().has(name)}
         onToggle={toggle}
       />
-      <button
-        type="button"
+      <CommandButton
+        lab={lab}
+        at="compare"
         class="small primary"
-        disabled={!lab.canOperate() || wanted().length === 0 || from() === undefined}
+        disabled={wanted().length === 0 || from() === undefined}
         title={title()}
-        onClick={() => {
+        command={() => {
           const tick = from();
-          if (tick === undefined) return;
-          lab.send({ type: 'fork', tick, controllers: wanted() });
+          return tick === undefined ? undefined : { type: 'fork', tick, controllers: wanted() };
         }}
       >
         Start comparison
-      </button>
+      </CommandButton>
       <span class="compare-of" role="status">
         <Show when={lab.comparison.shown()}>
           {(comparison) => (

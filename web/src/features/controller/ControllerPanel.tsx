@@ -1,15 +1,6 @@
 // The active controller, its reasons, and its parameters.
 
-import {
-  For,
-  Show,
-  createEffect,
-  createMemo,
-  createSignal,
-  on,
-  onCleanup,
-  type JSX,
-} from 'solid-js';
+import { For, Show, createMemo, type JSX } from 'solid-js';
 import { troubleWords } from '../../lab/failure';
 import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS, policyName } from '../../lab/parameters';
 import type { ControllerName, StateMessage } from '../../net/protocol.gen';
@@ -19,11 +10,9 @@ import { isLedFromOutside } from '../../lab/outside';
 import { ParameterForm } from './ParameterForm';
 import { SwitchingLaw } from './SwitchingLaw';
 import type { Notices, Session, Trial } from '../../lab/slices';
+import { createPending, type Pending } from '../../ui/pending';
 import { shownName } from '../../ui/name';
 import './ControllerPanel.css';
-
-/** A choice is shown at once. If the server has not followed by then, its controller is shown again. */
-const CHOICE_MS = 1000;
 
 /** Something that can be chosen: one of Ferry's own controllers, or a program. */
 interface Choice {
@@ -34,29 +23,23 @@ interface Choice {
 const keyOf = ({ controller, program }: Choice): string => program ?? controller;
 
 function ControllerRadio(props: {
-  lab: Session & Trial;
+  lab: Session;
   choice: Choice;
-  isChosen: boolean;
-  onChoose(): void;
+  chosen: Pending<Choice>;
 }): JSX.Element {
   const { lab } = props;
-  let input!: HTMLInputElement;
-  // After a refusal the click has to be undone, although nothing changed on the server.
-  createEffect(
-    on([() => props.isChosen, lab.refusals], ([now]) => {
-      input.checked = now;
-    }),
-  );
+  const isChosen = (): boolean => keyOf(props.chosen.value()) === keyOf(props.choice);
   return (
     <label title={CONTROLLER_HELP[props.choice.controller]}>
       <input
-        ref={input}
         type="radio"
         name="controller"
         value={keyOf(props.choice)}
+        checked={isChosen()}
+        aria-busy={isChosen() && props.chosen.isPending()}
         disabled={!lab.canOperate()}
         onChange={() => {
-          props.onChoose();
+          props.chosen.choose(props.choice);
         }}
       />
       {shownName(props.choice.program ?? CONTROLLER_LABELS[props.choice.controller])}
@@ -69,43 +52,20 @@ function ControllerChoice(props: {
   names: readonly ControllerName[];
 }): JSX.Element {
   const { lab } = props;
-  // Between the arrow keys, states arrive with the choice before.
-  const [choice, setChoice] = createSignal<string>();
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  const settle = (): void => {
-    clearTimeout(timer);
-    setChoice(undefined);
-  };
-  const active = createMemo(() => {
-    const state = lab.state();
-    return state?.controller === 'program' ? state.program?.name : state?.controller;
-  });
-  const names = createPrograms(() => {
+  const program = createMemo(() => {
     const state = lab.state();
     return state?.controller === 'program' ? state.program?.name : undefined;
   });
-  createEffect(
-    on(active, (now) => {
-      if (now === choice()) settle();
-    }),
+  const names = createPrograms(program);
+  const chosen = createPending<Choice>(
+    () => {
+      const [controller, name] = [lab.state()?.controller ?? 'rl', program()];
+      return name === undefined ? { controller } : { controller, program: name };
+    },
+    (choice) => lab.send('controller', { type: 'select_controller', ...choice }),
   );
-  createEffect(on(lab.refusals, settle));
-  onCleanup(settle);
-  const choose = (wanted: Choice): void => {
-    settle();
-    setChoice(keyOf(wanted));
-    timer = setTimeout(settle, CHOICE_MS);
-    lab.send({ type: 'select_controller', ...wanted });
-  };
-  const radio = (one: Choice): JSX.Element => (
-    <ControllerRadio
-      lab={lab}
-      choice={one}
-      isChosen={(choice() ?? active()) === keyOf(one)}
-      onChoose={() => {
-        choose(one);
-      }}
-    />
+  const radio = (choice: Choice): JSX.Element => (
+    <ControllerRadio lab={lab} choice={choice} chosen={chosen} />
   );
   return (
     <fieldset class="choice" role="radiogroup" aria-label="Controller">

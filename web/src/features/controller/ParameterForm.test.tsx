@@ -27,10 +27,12 @@ it('sends all parameters, and shows those of the server', async () => {
   const changed = { ...parameters, threshold_m: 0.08 };
   await expect.poll(() => server.command('configure')?.parameters).toEqual(changed);
   server.scene({ parameters: changed });
+  server.done();
   await expect.element(threshold).toHaveValue('8.0');
   await page.getByRole('button', { name: 'Restore defaults' }).click();
   await expect.poll(() => server.command('configure')?.parameters).toEqual(parameters);
   server.scene({ parameters });
+  server.done();
   await expect.element(threshold).toHaveValue('10.0');
 });
 
@@ -50,6 +52,7 @@ it('reads a decimal comma, and keeps what is not a number, with the reason', asy
   const changed = { ...parameters, threshold_m: 0.075 };
   await expect.poll(() => server.command('configure')?.parameters).toEqual(changed);
   server.scene({ parameters: changed });
+  server.done();
   await expect.element(threshold).toHaveValue('7.5');
   const { length } = server.sent;
   await threshold.fill('7,5,1');

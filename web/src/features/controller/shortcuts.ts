@@ -9,7 +9,7 @@ export const CONTROLLER_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, ope
     does: CONTROLLER_LABELS[controller],
     run: operate(() => {
       if (lab.scene()?.controllers.includes(controller)) {
-        lab.send({ type: 'select_controller', controller });
+        void lab.send('controller', { type: 'select_controller', controller });
       }
     }),
   }));

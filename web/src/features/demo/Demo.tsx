@@ -1,17 +1,9 @@
 // The demonstration: runs the programme, shows its captions, and gives way to a visitor.
 
-import {
-  Show,
-  createEffect,
-  createSignal,
-  on,
-  onCleanup,
-  onMount,
-  untrack,
-  type JSX,
-} from 'solid-js';
+import { Show, createEffect, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
 import { experimentFrom, loadMessage } from '../../lab/experimentLink';
 import { PlaceNotice } from '../../lab/PlaceNotice';
+import type { Answer } from '../../lab/commands';
 import { isOver } from '../../lab/contest';
 import type { Contested, Notices, Session, Trial } from '../../lab/slices';
 import { openPage } from '../../net/access';
@@ -19,6 +11,7 @@ import type { ControllerName, SceneMessage } from '../../net/protocol.gen';
 import {
   CARRIERS,
   PROGRAMME,
+  type Part,
   SILENCE_MS,
   afterCue,
   challengeOf,
@@ -56,12 +49,8 @@ export function Demo(props: {
   const [place, setPlace] = createSignal(startOf(0, nowMs()));
   /** When a visitor last touched the screen; undefined while the programme runs. */
   const [touched_ms, setTouched] = createSignal<number>();
-  /** Number of the trial that the present part replaces; undefined until the part is set up. */
-  let replaced: number | undefined;
-  /** Number of the trial of the present part, when its scene has come. */
-  let shown: number | undefined;
-  /** The scene of a connection that was lost. The next connection sends another one. */
-  let stale: SceneMessage | undefined;
+  /** Number of the trial of the present part, after the server has set it up; undefined until it is requested. */
+  let own: Promise<Answer> | number | undefined;
   let hasAsked = false;
   let reload_ms: number | undefined;
 
@@ -71,45 +60,44 @@ export function Demo(props: {
 
   // After lost control or a lost connection the part begins again.
   createEffect(() => {
-    if (!isLive()) {
-      stale = untrack(lab.scene);
-      hasAsked = false;
-    }
+    if (!isLive()) hasAsked = false;
     if (!lab.canOperate()) {
-      replaced = undefined;
+      own = undefined;
       setTouched(undefined);
     }
   });
 
-  const play = (): void => {
-    lab.contest.play(challengeOf(new Date()));
-    lab.send({ type: 'run' });
+  const run = (): void => void lab.send('workspace', { type: 'run' });
+  const play = (): Promise<Answer> => {
+    const played = lab.contest.play(challengeOf(new Date()));
+    run();
+    return played;
   };
   const isContest = (): boolean => PROGRAMME[place().part]?.link === undefined;
 
-  const setUp = (): void => {
-    const scene = lab.scene();
-    const part = PROGRAMME[place().part];
-    if (!scene || scene === stale || !part) return;
-    replaced = scene.trial;
-    shown = undefined;
-    if (part.link === undefined) {
-      play();
-      return;
-    }
-    const read = experimentFrom(part.link, scene);
-    if (read.kind !== 'experiment')
-      throw new Error(`the programme has a broken link: ${part.link}`);
-    lab.send(loadMessage(read.experiment, scene.defaults));
-    lab.send({ type: 'set_speed', factor: part.speed });
-    lab.send({ type: 'run' });
+  const load = ({ link, speed }: Part, scene: SceneMessage): Promise<Answer> => {
+    if (link === undefined) return play();
+    const read = experimentFrom(link, scene);
+    if (read.kind !== 'experiment') throw new Error(`the programme has a broken link: ${link}`);
+    const loaded = lab.send('workspace', loadMessage(read.experiment, scene.defaults));
+    void lab.send('workspace', { type: 'set_speed', factor: speed });
+    run();
+    return loaded;
+  };
+  const setUp = async (): Promise<void> => {
+    const [scene, part] = [lab.scene(), PROGRAMME[place().part]];
+    if (!scene || !part) return;
+    const asked = load(part, scene);
+    own = asked;
+    const answer = await asked;
+    // A part that was refused is left after its time.
+    if (own === asked && answer.kind === 'done') own = answer.trial;
   };
   const begin = (part: number): void => {
     setPlace(startOf(part, nowMs()));
     setTouched(undefined);
-    replaced = undefined;
     props.onBegin();
-    setUp();
+    void setUp();
   };
 
   const reload = async (): Promise<void> => {
@@ -121,9 +109,9 @@ export function Demo(props: {
   };
   const takeFreeControl = (): void => {
     const isFree = lab.hello()?.operator_present === false;
-    if (isFree) lab.send({ type: 'take_control' });
+    if (isFree) void lab.send('session', { type: 'take_control' });
     // Another browser was faster. The request would take control from it when it sends nothing for a time.
-    else if (hasAsked) lab.send({ type: 'release_control' });
+    else if (hasAsked) void lab.send('session', { type: 'release_control' });
     hasAsked = isFree;
   };
   const tick = (): void => {
@@ -144,26 +132,19 @@ export function Demo(props: {
       return;
     }
     setPlace(turned(place(), now));
-    if (replaced === undefined) begin(place().part);
+    if (own === undefined) begin(place().part);
     else if (isPartOver(place(), now)) begin(place().part + 1);
   };
 
   createEffect(
     on(lab.state, (state) => {
-      const trial = lab.scene()?.trial;
-      if (!state || touched_ms() !== undefined) return;
-      if (replaced === undefined || trial === replaced) return;
-      if (trial !== shown) {
-        // This state may be the last one of the trial before.
-        shown = trial;
-        return;
-      }
+      if (!state || touched_ms() !== undefined || lab.scene()?.trial !== own) return;
       const index = nextCue(place(), state);
       if (index === undefined) return;
       const commands = PROGRAMME[place().part]?.cues[index]?.commands ?? [];
       setPlace(afterCue(place(), index));
       commands.forEach((command) => {
-        lab.send(command);
+        void lab.send('workspace', command);
       });
     }),
   );
@@ -183,8 +164,8 @@ export function Demo(props: {
       const isFirst = touched_ms() === undefined;
       setTouched(nowMs());
       // A visitor begins with the clock; the ghosts have run alone.
-      if (isContest() && (isFirst || isOver(lab.contest.attempt()))) play();
-      else if (!lab.state()?.running) lab.send({ type: 'run' });
+      if (isContest() && (isFirst || isOver(lab.contest.attempt()))) void play();
+      else if (!lab.state()?.running) run();
     };
     listen('pointerdown', touch);
     listen('wheel', touch);

@@ -94,11 +94,11 @@ export function DisturbBar(props: {
     if (!scene || !state) return;
     const at = when();
     if (!at) {
-      lab.send({ type: 'disturb', disturbance: disturbance() });
+      void lab.send('workspace', { type: 'disturb', disturbance: disturbance() });
       return;
     }
     const script = [...scene.scenario.script, { at, disturbance: disturbance() }];
-    lab.send(restart(scene, state, { script }));
+    void lab.send('workspace', restart(scene, state, { script }));
   };
   const button = (): string => {
     const name = KINDS.find(([id]) => id === kind())?.[1] ?? '';

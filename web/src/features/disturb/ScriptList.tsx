@@ -2,7 +2,8 @@
 
 import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { describe, describeWhen, MAX_RANDOM, restart } from '../../lab/disturbance';
-import type { Scripted } from '../../net/protocol.gen';
+import { CommandButton } from '../../lab/CommandButton';
+import type { ClientMessage, Scripted } from '../../net/protocol.gen';
 import { Amount } from './disturbFields';
 import type { Session, Trial } from '../../lab/slices';
 
@@ -12,15 +13,11 @@ export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
   // A memo: another scene with the same number, as after a rewind, keeps what the user has typed.
   const inForce = createMemo(() => lab.scene()?.scenario.disturbances ?? 0);
   const [random, setRandom] = createSignal(inForce());
-  createEffect(
-    on([inForce, lab.refusals], ([count]) => {
-      setRandom(count);
-    }),
-  );
-  const load = (change: Parameters<typeof restart>[2]): void => {
+  createEffect(on(inForce, setRandom));
+  const load = (change: Parameters<typeof restart>[2]): ClientMessage | undefined => {
     const scene = lab.scene();
     const state = lab.state();
-    if (scene && state) lab.send(restart(scene, state, change));
+    return scene && state && restart(scene, state, change);
   };
   const words = ({ at, disturbance }: Scripted): string =>
     `${describeWhen(at, lab.scene()?.tick_s ?? 0)}: ${describe(disturbance)}`;
@@ -30,7 +27,8 @@ export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
         class="random"
         onSubmit={(event) => {
           event.preventDefault();
-          load({ disturbances: random() });
+          const message = load({ disturbances: random() });
+          if (message) void lab.send('workspace', message);
         }}
       >
         <Amount
@@ -59,18 +57,16 @@ export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
               <li>
                 <div>
                   <span>{words(entry)}</span>
-                  <button
-                    type="button"
+                  <CommandButton
+                    lab={lab}
+                    at="workspace"
                     class="bare"
-                    disabled={!lab.canOperate()}
                     aria-label={`Remove and restart: ${words(entry)}`}
                     title="Remove from the script and restart"
-                    onClick={() => {
-                      load({ script: script().filter((_, at) => at !== index()) });
-                    }}
+                    command={() => load({ script: script().filter((_, at) => at !== index()) })}
                   >
                     ×
-                  </button>
+                  </CommandButton>
                 </div>
               </li>
             )}

@@ -28,17 +28,17 @@ function FailureRow(props: {
       .filter((word) => word !== '')
       .join(', ');
   };
-  const setUp = (): void => {
+  const setUp = async (): Promise<void> => {
     const now = cell();
     const defaults = lab.scene()?.defaults;
     if (!now || !defaults) return;
-    lab.send(
-      setUpAgain(now, props.failure, { ...defaults, rl_policy: props.report.query.rl_policy }),
-    );
-    if (now.program !== null) {
-      lab.send({ type: 'select_controller', controller: 'program', program: now.program });
-    }
     props.onLaboratory();
+    const parameters = { ...defaults, rl_policy: props.report.query.rl_policy };
+    const { kind } = await lab.send('playback', setUpAgain(now, props.failure, parameters));
+    if (kind === 'done' && now.program !== null) {
+      const { program } = now;
+      await lab.send('controller', { type: 'select_controller', controller: 'program', program });
+    }
   };
   return (
     <tr>
@@ -55,7 +55,7 @@ function FailureRow(props: {
           disabled={!lab.canOperate()}
           aria-label={`Set it up: episode ${props.failure.index} of ${label()}`}
           title="Loads this episode into the live session"
-          onClick={setUp}
+          onClick={() => void setUp()}
         >
           Set it up
         </button>

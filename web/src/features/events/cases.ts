@@ -36,8 +36,8 @@ export async function openCase(lab: Session & Notices & OpenTab, file: File): Pr
     return;
   }
   if (fits(text, bytes)) {
-    lab.send({ type: 'open_case', case: text });
-    lab.openTab('events');
+    const { kind } = await lab.send('playback', { type: 'open_case', case: text });
+    if (kind === 'done') lab.openTab('events');
   } else {
     say(tooLarge);
   }

@@ -1,6 +1,7 @@
 // Explains why a goal was not reached, and what to try. Over the lower edge of the workspace, where it moves nothing.
 
 import { Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { CommandButton } from '../../lab/CommandButton';
 import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import {
@@ -24,23 +25,22 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
   /** Sets the same goal again, which begins another attempt. */
   const tryAgain = (): void => {
     const goal = lab.goal();
-    if (goal) lab.send({ type: 'set_goal', x_m: goal[0], y_m: goal[1] });
-    if (!lab.state()?.running) lab.send({ type: 'run' });
+    if (goal) void lab.send('workspace', { type: 'set_goal', x_m: goal[0], y_m: goal[1] });
+    if (!lab.state()?.running) void lab.send('workspace', { type: 'run' });
   };
   return (
     <>
       <Show when={adviceOf(props.attempt)}>{(advice) => <p>{advice()}</p>}</Show>
       <Show when={needsReset(props.attempt)}>
         <div class="buttons">
-          <button
-            type="button"
+          <CommandButton
+            lab={lab}
+            at="workspace"
             class="small primary"
-            onClick={() => {
-              lab.send({ type: 'reset' });
-            }}
+            command={() => ({ type: 'reset' })}
           >
             Reset
-          </button>
+          </CommandButton>
         </div>
       </Show>
       <Show when={furtherSteps(props.attempt)}>
@@ -48,23 +48,23 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
           <div class="buttons">
             <Show when={betterController(props.attempt)}>
               {(name) => (
-                <button
-                  type="button"
+                <CommandButton
+                  lab={lab}
+                  at="workspace"
                   class="small primary"
-                  onClick={() => {
-                    lab.send({ type: 'select_controller', controller: name() });
-                    tryAgain();
-                  }}
+                  onDone={tryAgain}
+                  command={() => ({ type: 'select_controller', controller: name() })}
                 >
                   Try {CONTROLLER_LABELS[name()]}
-                </button>
+                </CommandButton>
               )}
             </Show>
             <button type="button" class="small" onClick={tryAgain}>
               Go on for {steps()} more steps
             </button>
-            <button
-              type="button"
+            <CommandButton
+              lab={lab}
+              at="workspace"
               class="small"
               disabled={attemptStart(lab) === undefined}
               title={
@@ -72,15 +72,16 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
                   ? START_NOT_KEPT
                   : 'Continues from the moment at which the goal was set, under each controller'
               }
-              onClick={() => {
+              command={() => {
                 const tick = attemptStart(lab);
-                if (tick === undefined) return;
-                lab.send({ type: 'fork', tick });
+                return tick === undefined ? undefined : { type: 'fork', tick };
+              }}
+              onDone={() => {
                 lab.openTab('compare');
               }}
             >
               Compare from the start
-            </button>
+            </CommandButton>
           </div>
         )}
       </Show>

@@ -1,6 +1,7 @@
 // One lesson, one step at a time: predict, run, explain.
 
 import { For, Match, Show, Switch, createEffect, on, type JSX } from 'solid-js';
+import { CommandButton } from '../../lab/CommandButton';
 import { type Fact, isTrainingLesson, type Lesson, runCount, type Run } from './lesson';
 import type { Lessons } from './store';
 import { NotOperator } from './NotOperator';
@@ -64,24 +65,25 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
           classList={{ primary: !isFollowed() }}
           disabled={!lab.canOperate()}
           onClick={() => {
-            store.setUp();
+            void store.setUp();
           }}
         >
           {store.track() ? 'Set it up again' : 'Set it up'}
         </button>
         <For each={props.run.actions}>
           {(action) => (
-            <button
-              type="button"
+            <CommandButton
+              lab={lab}
+              at="workspace"
               class="small"
-              disabled={!lab.canOperate() || !isFollowed()}
-              onClick={() => {
+              disabled={!isFollowed()}
+              command={() => {
                 const [scene, state] = [lab.scene(), lab.state()];
-                if (scene && state) lab.send(action.message(scene, state));
+                return scene && state && action.message(scene, state);
               }}
             >
               {action.label}
-            </button>
+            </CommandButton>
           )}
         </For>
       </div>

@@ -9,7 +9,7 @@ import {
   untrack,
   type Accessor,
 } from 'solid-js';
-import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLink';
+import { experimentFrom, loadMessage } from '../../lab/experimentLink';
 import {
   allDone,
   isTrainingLesson,
@@ -51,7 +51,7 @@ export interface Lessons {
   go(step: number): void;
   choose(choice: string): void;
   /** Loads the run's experiment. */
-  setUp(): void;
+  setUp(): Promise<void>;
   startOver(): void;
 }
 
@@ -82,20 +82,22 @@ function createLessons(lab: LessonsLab): Lessons {
   });
   const trainings = createLessonTrainings(lesson);
   const track = createMemo(() => tracks()[step() - 1]);
+  /** The scenario of the present run, as the server has set it up. A reset begins it again. */
+  const [own, setOwn] = createSignal<string>();
   const isItsTrial = createMemo(() => {
     const scene = lab.scene();
-    return scene !== undefined && run()?.link === linkAsSetUp(scene);
+    return scene !== undefined && JSON.stringify(scene.scenario) === own();
   });
 
   createEffect(() => {
-    const [scene, state] = [lab.scene(), lab.state()];
+    const [scene, state, isOwn] = [lab.scene(), lab.state(), isItsTrial()];
     if (!run() || !scene || !state) return;
     const frame = { scene, state, overlay: lab.overlay(), marks: lab.marks() };
     untrack(() => {
       const before = track();
       const isFollowed = before?.trial === scene.trial;
       // Before the first tick, so that nothing is missed.
-      const isAtStart = isItsTrial() && state.tick === 0;
+      const isAtStart = isOwn && state.tick === 0;
       if (!isFollowed && !isAtStart) return;
       const next = isAtStart ? startTrack(frame) : before && observe(before, frame);
       const all = [...tracks()];
@@ -113,8 +115,8 @@ function createLessons(lab: LessonsLab): Lessons {
   const restore = (): void => {
     const isStillThere = tracks().some((one) => one && one.trial === lab.scene()?.trial);
     if (before && isStillThere && lab.canOperate()) {
-      lab.send({ type: 'configure', parameters: before.parameters });
-      lab.send({ type: 'set_speed', factor: before.speed });
+      void lab.send('playback', { type: 'configure', parameters: before.parameters });
+      void lab.send('playback', { type: 'set_speed', factor: before.speed });
     }
     before = undefined;
   };
@@ -123,6 +125,7 @@ function createLessons(lab: LessonsLab): Lessons {
     restore();
     setLeft(lesson());
     setLesson(undefined);
+    setOwn(undefined);
     setStep(0);
     setTracks([]);
   };
@@ -156,6 +159,7 @@ function createLessons(lab: LessonsLab): Lessons {
     },
     close: leave,
     go(to) {
+      setOwn(undefined);
       setStep(to);
       const now = lesson();
       if (now && to > runCount(now) && !progress().done.includes(now.id))
@@ -165,19 +169,21 @@ function createLessons(lab: LessonsLab): Lessons {
       const now = lesson();
       if (now) keep({ ...progress(), choices: { ...progress().choices, [now.id]: choice } });
     },
-    setUp() {
+    async setUp() {
       const [here, scene] = [run(), lab.scene()];
       if (!here || !scene) return;
       const read = experimentFrom(here.link, scene);
       if (read.kind !== 'experiment') return;
       before ??= { parameters: scene.parameters, speed: lab.state()?.speed_target ?? 1 };
       setTracks(tracks().map((old, index) => (index === step() - 1 ? undefined : old)));
-      lab.send(loadMessage(read.experiment, scene.defaults));
-      lab.send({ type: 'set_speed', factor: here.speed });
+      const loaded = lab.send('playback', loadMessage(read.experiment, scene.defaults));
+      void lab.send('playback', { type: 'set_speed', factor: here.speed });
       giveBackLayers(here.layers);
       const off = here.layers.filter((layer) => !lab.layers().has(layer));
       for (const layer of off) lab.showLayer(layer, true);
       lent = [...lent, ...off];
+      const { kind } = await loaded;
+      if (kind === 'done' && run() === here) setOwn(JSON.stringify(lab.scene()?.scenario));
     },
     startOver() {
       leave();

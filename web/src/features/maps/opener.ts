@@ -50,7 +50,7 @@ export function createMapOpener(lab: Session & Trial & Notices): MapOpener {
       try {
         const report = await addMap(file, fit);
         setAdded({ file, report });
-        loadMap(lab, report.name);
+        await loadMap(lab, report.name);
         return true;
       } catch (reason) {
         say(reason instanceof Error ? reason.message : String(reason));

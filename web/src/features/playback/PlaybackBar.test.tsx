@@ -65,10 +65,15 @@ it('asks for a goal when it runs without one', async () => {
   const { lab, server } = await open();
   const notice = page.getByText('No goal is set');
   await button('Run').click();
+  await expect.poll(() => server.command('run')).toBeDefined();
+  await expect.element(button('Run')).toHaveAttribute('aria-busy', 'true');
+  server.state({ running: true });
+  server.done();
   await expect.element(notice).toBeVisible();
-  lab.send({ type: 'set_goal', x_m: 0.1, y_m: -0.3 });
+  void lab.send('workspace', { type: 'set_goal', x_m: 0.1, y_m: -0.3 });
   await expect.element(notice).not.toBeInTheDocument();
-  server.state({ goal_m: [0.1, -0.3, 0] });
+  server.state({ running: false, goal_m: [0.1, -0.3, 0] });
+  server.done();
   await expect.poll(() => lab.goal()).toBeDefined();
   await button('Run').click();
   await expect.poll(() => server.sent.at(-1)?.type).toBe('run');

@@ -3,14 +3,16 @@
 import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
 import { loadMap } from '../../lab/loadMap';
-import { runOrPause } from './run';
+import { hintAtGoal, runOrPause } from './run';
 import { speedName, SPEEDS, ticksToControlStep } from './steps';
+import { CommandButton } from '../../lab/CommandButton';
 import { Achieved } from './Achieved';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { Timeline } from './Timeline';
 import { numberFault, numberOf } from '../../ui/number';
+import { createPending } from '../../ui/pending';
 import { NumberInput } from '../../ui/NumberInput';
-import { TruthSelect } from '../../ui/ServerSelect';
+import { ServerSelect } from '../../ui/ServerSelect';
 import type { Events, Notices, Session, Trial } from '../../lab/slices';
 import './PlaybackBar.css';
 
@@ -23,50 +25,48 @@ function RunButtons(props: { lab: Session & Trial & Notices }): JSX.Element {
   const running = (): boolean => lab.state()?.running ?? false;
   return (
     <div class="buttons">
-      <button
-        type="button"
+      <CommandButton
+        lab={lab}
+        at="playback"
         class="primary run"
-        disabled={!lab.canOperate()}
         title="Space"
-        onClick={() => {
-          runOrPause(lab);
+        command={() => runOrPause(lab)}
+        onDone={() => {
+          hintAtGoal(lab);
         }}
       >
         {running() ? 'Pause' : 'Run'}
-      </button>
-      <button
-        type="button"
-        disabled={!lab.canOperate() || running()}
+      </CommandButton>
+      <CommandButton
+        lab={lab}
+        at="playback"
+        disabled={running()}
         title={`One tick of 8 ms; with Shift ${MANY_TICKS} ticks, one second (.)`}
-        onClick={(event) => {
-          lab.send({ type: 'step', ticks: event.shiftKey ? MANY_TICKS : 1 });
-        }}
+        command={({ shiftKey }) => ({ type: 'step', ticks: shiftKey ? MANY_TICKS : 1 })}
       >
         Step
-      </button>
-      <button
-        type="button"
+      </CommandButton>
+      <CommandButton
+        lab={lab}
+        at="playback"
         class="seldom"
-        disabled={!lab.canOperate() || running()}
+        disabled={running()}
         title="To the next control step: 31 or 32 ticks, a quarter of a second (,)"
-        onClick={() => {
+        command={() => {
           const tick = lab.state()?.tick ?? 0;
-          const ticks = ticksToControlStep(tick, lab.scene()?.tick_s ?? 0.008);
-          lab.send({ type: 'step', ticks });
+          return { type: 'step', ticks: ticksToControlStep(tick, lab.scene()?.tick_s ?? 0.008) };
         }}
       >
         Step ¼ s
-      </button>
-      <button
-        type="button"
-        disabled={!lab.canOperate()}
+      </CommandButton>
+      <CommandButton
+        lab={lab}
+        at="playback"
         title="Back to the start with the same seed (R)"
-        onClick={() => {
-          lab.send({ type: 'reset' });
-        }}
+        command={() => ({ type: 'reset' })}
       >
         Reset
-      </button>
+      </CommandButton>
     </div>
   );
 }
@@ -78,13 +78,17 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
   const show = (): void => {
     setTyped(undefined);
   };
-  createEffect(on([() => props.seed, lab.refusals], show));
+  const seed = createPending(
+    () => props.seed,
+    (value) => lab.send('playback', { type: 'reset', seed: value }),
+  );
+  createEffect(on(seed.value, show));
   return (
     <form
       class="field"
       onSubmit={(event) => {
         event.preventDefault();
-        lab.send({ type: 'reset', seed: numberOf(typed() ?? String(props.seed)) });
+        seed.choose(numberOf(typed() ?? String(props.seed)));
       }}
     >
       <label for="seed">Seed</label>
@@ -93,7 +97,8 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
         min={0}
         isWhole
         isStrict
-        value={typed() ?? props.seed}
+        value={typed() ?? seed.value()}
+        aria-busy={seed.isPending()}
         disabled={!lab.canOperate()}
         title="Enter resets the trial with this seed"
         style={{ '--digits': String(props.seed).length }}
@@ -102,16 +107,14 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
           if (numberFault(typed() ?? '0') === undefined) show();
         }}
       />
-      <button
-        type="button"
-        disabled={!lab.canOperate()}
+      <CommandButton
+        lab={lab}
+        at="playback"
         title="Resets the trial with a random seed"
-        onClick={() => {
-          lab.send({ type: 'reset', seed: Math.floor(Math.random() * SEED_LIMIT) });
-        }}
+        command={() => ({ type: 'reset', seed: Math.floor(Math.random() * SEED_LIMIT) })}
       >
         New seed
-      </button>
+      </CommandButton>
     </form>
   );
 }
@@ -156,29 +159,23 @@ export function PlaybackBar(props: {
           More
         </button>
         <div id="more-controls" class="more-controls" data-open={isOpen()}>
-          <TruthSelect
+          <ServerSelect
             label="Speed"
             value={String(target())}
             options={speeds()}
-            refusals={lab.refusals()}
             disabled={!lab.canOperate()}
-            onChoose={(value) => {
-              lab.send({ type: 'set_speed', factor: Number(value) });
-            }}
+            onChoose={(value) => lab.send('playback', { type: 'set_speed', factor: Number(value) })}
           />
           <Achieved lab={lab} />
           <Show when={lab.scene()}>
             {(scene) => (
               <>
-                <TruthSelect
+                <ServerSelect
                   label="Map"
                   value={scene().map}
                   options={maps()}
-                  refusals={lab.refusals()}
                   disabled={!lab.canOperate()}
-                  onChoose={(map) => {
-                    loadMap(lab, map);
-                  }}
+                  onChoose={(map) => loadMap(lab, map)}
                 />
                 {props.choices}
                 <Seed lab={lab} seed={scene().seed} />

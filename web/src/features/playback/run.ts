@@ -1,11 +1,16 @@
 // The button Run and the Space key.
 
-import type { Notices, Session, Trial } from '../../lab/slices';
+import type { Notices, Trial } from '../../lab/slices';
+import type { ClientMessage } from '../../net/protocol.gen';
 
 const NO_GOAL = 'No goal is set: choose a free place in the workspace.';
 
-export function runOrPause(lab: Session & Trial & Notices): void {
+export const runOrPause = (lab: Trial): ClientMessage => ({
+  type: lab.state()?.running ? 'pause' : 'run',
+});
+
+/** Says why the arm does not move in a run without a goal. */
+export function hintAtGoal(lab: Trial & Notices): void {
   const state = lab.state();
-  lab.send({ type: state?.running ? 'pause' : 'run' });
-  if (!state?.running && !state?.goal_m) lab.notify('workspace', NO_GOAL);
+  if (state?.running && !state.goal_m) lab.notify('workspace', NO_GOAL);
 }

@@ -1,6 +1,6 @@
 import type { FeatureShortcuts } from '../../lab/shortcuts';
 import { nextSpeed, ticksToControlStep } from './steps';
-import { runOrPause } from './run';
+import { hintAtGoal, runOrPause } from './run';
 import type { Notices, Session, Trial } from '../../lab/slices';
 
 export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices> = (lab, operate) => {
@@ -8,11 +8,11 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices> = (lab,
     operate(() => {
       const target = lab.state()?.speed_target ?? 1;
       const factor = nextSpeed(target, direction);
-      if (factor !== target) lab.send({ type: 'set_speed', factor });
+      if (factor !== target) void lab.send('playback', { type: 'set_speed', factor });
     });
   const step = (ticks: () => number) =>
     operate(() => {
-      if (!lab.state()?.running) lab.send({ type: 'step', ticks: ticks() });
+      if (!lab.state()?.running) void lab.send('playback', { type: 'step', ticks: ticks() });
     });
   return [
     {
@@ -20,7 +20,9 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices> = (lab,
       keys: [' '],
       does: 'run or pause',
       run: operate(() => {
-        runOrPause(lab);
+        void lab.send('playback', runOrPause(lab)).then(() => {
+          hintAtGoal(lab);
+        });
       }),
     },
     { group: 'Time', keys: ['.'], does: 'step by one tick of 8 ms', run: step(() => 1) },
@@ -37,7 +39,7 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices> = (lab,
       keys: ['r'],
       does: 'reset with the same seed',
       run: operate(() => {
-        lab.send({ type: 'reset' });
+        void lab.send('playback', { type: 'reset' });
       }),
     },
   ];

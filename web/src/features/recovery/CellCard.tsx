@@ -1,6 +1,7 @@
 // The trials of a cell: each can be set up in the session or saved as a test case.
 
 import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
+import { CommandButton } from '../../lab/CommandButton';
 import type { Notices, Session } from '../../lab/slices';
 import { get, getText } from '../../net/requests';
 import type { RecoveryReport, RecoveryTrial, RecoveryTrials } from '../../net/protocol.gen';
@@ -56,24 +57,22 @@ export function CellCard(props: {
               {(trial) => (
                 <li>
                   <span>{trialWords(trial)}</span>
-                  <button
-                    type="button"
+                  <CommandButton
+                    lab={props.lab}
+                    at="recovery"
                     class="small"
                     aria-label={`Set up trial ${trial.repeat + 1}`}
                     title="Goes to the moment and sets this trial up, exactly; Run plays it. The present is kept as a run."
-                    disabled={!props.lab.canOperate()}
-                    onClick={() => {
-                      props.lab.send({
-                        type: 'open_try',
-                        recovery: props.report.id,
-                        cell: props.chosen.cell,
-                        controller: trial.controller,
-                        repeat: trial.repeat,
-                      });
-                    }}
+                    command={() => ({
+                      type: 'open_try',
+                      recovery: props.report.id,
+                      cell: props.chosen.cell,
+                      controller: trial.controller,
+                      repeat: trial.repeat,
+                    })}
                   >
                     Set up
-                  </button>
+                  </CommandButton>
                   <button
                     type="button"
                     class="small"

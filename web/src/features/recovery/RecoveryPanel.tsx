@@ -7,7 +7,7 @@ import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { ByHand, Notices, Session, Trial } from '../../lab/slices';
 import type { RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
 import { clock, counted } from '../../ui/format';
-import { TruthSelect } from '../../ui/ServerSelect';
+import { ServerSelect } from '../../ui/ServerSelect';
 import { CellCard } from './CellCard';
 import { basinWords, cellAt, cellWords, rowsOf } from './cells';
 import { looksOf } from './looks';
@@ -46,11 +46,10 @@ function Arrange(props: { report: RecoveryReport }): JSX.Element {
     return [['each', 'each controller'] as [Arrangement, string], ...pairs];
   });
   return (
-    <TruthSelect
+    <ServerSelect
       label="Show"
       value={String(store.arrangement())}
       options={options().map(([one, words]) => [String(one), words] as const)}
-      refusals={0}
       disabled={false}
       onChoose={(value) => {
         const found = options().find(([one]) => String(one) === value);
@@ -167,11 +166,10 @@ function Earlier(props: {
   ];
   return (
     <Show when={options().length > 1}>
-      <TruthSelect
+      <ServerSelect
         label="Recovery map"
         value={props.shown ?? ''}
         options={options()}
-        refusals={0}
         disabled={false}
         onChoose={(id) => {
           store.setWanted(id);

@@ -7,7 +7,7 @@ import type { ControllerName, RecoveryKind } from '../../net/protocol.gen';
 import { clock } from '../../ui/format';
 import { numberFault, numberOf } from '../../ui/number';
 import { NumberInput } from '../../ui/NumberInput';
-import { TruthSelect } from '../../ui/ServerSelect';
+import { ServerSelect } from '../../ui/ServerSelect';
 import { type RecoveryList, isActive } from './recoveries';
 import { store } from './store';
 
@@ -73,11 +73,10 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
   };
   return (
     <div class="recovery-start">
-      <TruthSelect
+      <ServerSelect
         label="Disturbance"
         value={draft().kind}
         options={KINDS}
-        refusals={0}
         disabled={false}
         onChoose={(value) => {
           const kind = KINDS.find(([name]) => name === value)?.[0];

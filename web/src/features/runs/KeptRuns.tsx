@@ -1,6 +1,7 @@
 // The runs that rewinds, resets and other scenarios have left behind, and a way back to each.
 
 import { For, Show, createEffect, createMemo, type JSX } from 'solid-js';
+import { CommandButton } from '../../lab/CommandButton';
 import type { Session, Trial } from '../../lab/slices';
 import { createPopover } from '../../ui/popover';
 import { runWords } from './runs';
@@ -55,20 +56,20 @@ export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
                 <span>
                   <strong>Run {run.number}</strong> {runWords(run)}
                 </span>
-                <button
-                  type="button"
+                <CommandButton
+                  lab={lab}
+                  at="playback"
                   class="small"
                   aria-label={`Return to run ${run.number}`}
                   title="Pauses at its end. The present run is kept."
-                  disabled={!lab.canOperate()}
-                  onClick={() => {
-                    lab.send({ type: 'return_to', run: run.number });
+                  command={() => ({ type: 'return_to', run: run.number })}
+                  onDone={() => {
                     setOpen(false);
                     button.focus();
                   }}
                 >
                   Return
-                </button>
+                </CommandButton>
               </li>
             )}
           </For>

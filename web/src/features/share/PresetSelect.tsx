@@ -3,7 +3,7 @@
 import { createMemo, type JSX } from 'solid-js';
 import type { PageExperiment } from '../../lab/pageExperiment';
 import { PRESETS } from './presets';
-import { TruthSelect } from '../../ui/ServerSelect';
+import { ServerSelect } from '../../ui/ServerSelect';
 import type { Session } from '../../lab/slices';
 
 const NONE = '';
@@ -19,15 +19,14 @@ export function PresetSelect(props: { lab: Session; links: PageExperiment }): JS
     return PRESETS.find(({ link }) => link === now)?.link ?? NONE;
   });
   return (
-    <TruthSelect
+    <ServerSelect
       label="Preset"
       hideLabel
       value={value()}
       options={OPTIONS}
-      refusals={lab.refusals()}
       disabled={!lab.canOperate()}
-      onChoose={(link) => {
-        if (link !== NONE) links.open(link);
+      onChoose={async (link) => {
+        if (link !== NONE) await links.open(link);
       }}
     />
   );

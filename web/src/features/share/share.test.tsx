@@ -30,7 +30,7 @@ async function open() {
         <ShareButton links={links} map={lab.scene()?.map}>
           More
         </ShareButton>
-        <PlaceNotice lab={lab} place="controller" />
+        <PlaceNotice lab={lab} place="playback" />
       </div>
     );
   });
@@ -70,16 +70,11 @@ it('refuses a link to an unknown map', async () => {
   expect(server.sent).toEqual([]);
 });
 
-it("shows the server's refusal of a link at the controller", async () => {
+it("shows the server's refusal of a link", async () => {
   const server = await open();
   window.location.hash = '#v=1&map=posts&controller=errt&seed=1&friction=7';
   await expect.poll(() => server.command('load_scenario')?.parameters?.friction).toBe(7);
-  server.tell({
-    type: 'error',
-    code: 'out_of_range',
-    message: 'friction is 7, it must be 0 to 1',
-    field: 'friction',
-  });
+  server.refuse('out_of_range', 'friction is 7, it must be 0 to 1');
   await expect.element(page.getByText('friction is 7, it must be 0 to 1')).toBeVisible();
 });
 

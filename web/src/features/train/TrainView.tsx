@@ -76,7 +76,7 @@ export function TrainView(props: TrainProps): JSX.Element {
     trained(summary) ??
     (summary.policy === null ? undefined : { name: summary.query.name, reference: summary.policy });
   const use = (policy: Policy, maps: readonly string[]): void => {
-    usePolicy(lab, policy, maps);
+    void usePolicy(lab, policy, maps);
     props.onLaboratory();
     // Where the page scrolls, the button may be far down.
     window.scrollTo(0, 0);

@@ -12,7 +12,7 @@ const isKey = ({ key }: KeyboardEvent): boolean => key === ' ' || key === 'Enter
 function HoldButton(props: { lab: Session; twin: TwinStanding }): JSX.Element {
   const { lab } = props;
   const hold = createHold((press) => {
-    lab.send({ type: 'drive_robot', ...(press === undefined ? {} : { press }) });
+    lab.stream({ type: 'drive_robot', ...(press === undefined ? {} : { press }) });
   });
   const release = (): void => {
     hold.release();

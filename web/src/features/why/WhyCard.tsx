@@ -1,6 +1,7 @@
 // The story of one event: why it happened, what the camera saw, and buttons to continue from there.
 
 import { Match, Show, Switch, createEffect, createMemo, createResource, on } from 'solid-js';
+import { CommandButton } from '../../lab/CommandButton';
 import type { JSX } from 'solid-js';
 import { get } from '../../net/requests';
 import { centimetres, clock } from '../../ui/format';
@@ -147,30 +148,30 @@ function Card(props: {
         </Switch>
       </div>
       <footer>
-        <button
-          type="button"
+        <CommandButton
+          lab={lab}
+          at="playback"
           class="small"
-          disabled={!lab.canOperate() || isPast()}
+          disabled={isPast()}
           title="Rewinds to the control step at or before this event and pauses there"
-          onClick={() => {
-            lab.send({ type: 'rewind', tick: props.event.tick });
-          }}
+          command={() => ({ type: 'rewind', tick: props.event.tick })}
         >
           Rewind to here
-        </button>
-        <button
-          type="button"
+        </CommandButton>
+        <CommandButton
+          lab={lab}
+          at="playback"
           class="small primary"
-          disabled={!lab.canOperate() || isPast()}
+          disabled={isPast()}
           title="Continues from this moment under every controller"
-          onClick={() => {
-            lab.send({ type: 'fork', tick: props.event.tick });
+          command={() => ({ type: 'fork', tick: props.event.tick })}
+          onDone={() => {
             lab.openTab('compare');
             close();
           }}
         >
           Compare controllers from here
-        </button>
+        </CommandButton>
       </footer>
     </section>
   );
