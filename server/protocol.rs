@@ -63,7 +63,7 @@ pub use trainings::{
 pub use workspace::{WorkspaceMap, WorkspaceQuery};
 
 /// Protocol version. Increase it when an old page could misread the server.
-pub const PROTOCOL_VERSION: u32 = 6;
+pub const PROTOCOL_VERSION: u32 = 7;
 /// Largest message from a browser. A test case of a few minutes of dragging fits.
 pub const MAX_MESSAGE_BYTES: usize = 2 << 20;
 /// Binary frame: the camera image, a JPEG file of 480×480.

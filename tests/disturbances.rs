@@ -23,7 +23,7 @@ fn run(scenario: Scenario, ticks: usize) -> Vec<TickRecord> {
 }
 
 fn disturbed_at(records: &[TickRecord]) -> Vec<usize> {
-    let is_one = |record: &&TickRecord| record.events.iter().any(|event| event.kind == EventKind::Disturbance);
+    let is_one = |record: &&TickRecord| record.events.iter().any(|event| event.kind() == EventKind::Disturbance);
     records.iter().filter(is_one).map(|record| record.tick as usize).collect()
 }
 

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use ferry_camera::Camera;
+use ferry_core::control::Refusal;
 use ferry_core::map::Map;
 use ferry_core::scenario::{AttractorLaw, ControllerName, Parameters, Scenario, Shipped};
 use ferry_core::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
@@ -154,7 +155,8 @@ fn a_planner_restored_during_a_search_finds_the_same_path() {
             (0..63)
                 .map(|_| {
                     let record = trial.tick(Source::Camera(&mut camera)).unwrap();
-                    searched += u32::from(record.moment.refusal.is_some_and(|why| why.contains("searching")));
+                    searched +=
+                        u32::from(record.moment.refusal.is_some_and(|why| matches!(why, Refusal::Searching { .. })));
                     record.controller_hash
                 })
                 .collect()

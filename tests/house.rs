@@ -45,6 +45,9 @@ const CONFINED: [(&str, &[&str]); 4] = [
         "utoipa",
         &[
             "schema",
+            "facts",
+            "control",
+            "session",
             "geometry",
             "magnetics",
             "robot",
@@ -63,6 +66,9 @@ const CONFINED: [(&str, &[&str]); 4] = [
     (
         "ts_rs",
         &[
+            "facts",
+            "control",
+            "session",
             "geometry",
             "magnetics",
             "robot",

@@ -92,12 +92,12 @@ fn without_a_usable_answer_the_arm_holds() {
         let record = trial.tick(Source::Seen(Box::new(seen))).unwrap();
         // The answer is for one step.
         let second = (1..=32).map(|_| trial.tick(Source::Camera(&mut camera)).unwrap()).last().unwrap();
-        assert_eq!(second.moment.refusal.as_deref(), Some("the program: it gave no answer"));
+        assert_eq!(second.moment.refusal, Some(Refusal::Program("it gave no answer".to_owned())));
         (record.moment.refusal, (trial.tool_m() - before).norm())
     };
-    let held = |(refusal, moved_m): (Option<String>, f64)| {
+    let held = |(refusal, moved_m): (Option<Refusal>, f64)| {
         assert!(moved_m < 1e-9);
-        refusal.unwrap()
+        refusal.unwrap().to_string()
     };
     assert_eq!(held(refusal_after(None)), "the program: it gave no answer");
     let hold = Input::Hold { reason: "I see nothing".to_owned() };

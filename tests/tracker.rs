@@ -7,7 +7,7 @@ use ferry_core::control::Refusal;
 use ferry_core::control::switching::Mode;
 use ferry_core::geometry::Point2;
 use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
-use ferry_core::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
+use ferry_core::trial::{Arena, Event, Happening, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
 use ferry_lab::evaluate::{Venue, episode};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -139,8 +139,8 @@ fn run(scenario: Scenario, is_over: impl Fn(&TickRecord) -> bool) -> Vec<TickRec
     records
 }
 
-fn texts(records: &[TickRecord]) -> Vec<&str> {
-    records.iter().flat_map(|record| &record.events).map(|event| event.text.as_str()).collect()
+fn texts(records: &[TickRecord]) -> Vec<String> {
+    records.iter().flat_map(|record| &record.events).map(Event::text).collect()
 }
 
 #[test]
@@ -160,7 +160,8 @@ fn a_bead_that_was_moved_meanwhile_is_found_with_the_camera() {
     assert!(at("the arm holds: tracker lost") < at("the arm looks for it"));
     assert!(at("the arm looks for it") < at("the tracker reports the bead again"));
     // The arm was over the bead before the tracker reported it.
-    let back = records.iter().position(|one| one.events.iter().any(|event| event.text.contains("again"))).unwrap();
+    let back =
+        records.iter().position(|one| one.events.iter().any(|event| event.what == Happening::TrackerBack)).unwrap();
     let gap_m = records[back].moment.tracking_error_m().norm();
     assert!(gap_m < 0.1, "{gap_m} m");
     assert_eq!(records.last().unwrap().moment.counters.switches, 0, "no fetch of a place where nothing is");

@@ -18,6 +18,7 @@
 
 pub mod challenge;
 pub mod control;
+pub mod facts;
 pub mod geometry;
 pub mod image;
 pub mod magnetics;

@@ -8,6 +8,7 @@ mod advance;
 mod apply;
 mod asking;
 mod branch_point;
+mod code;
 #[cfg(test)]
 mod command_tests;
 mod contest;
@@ -39,6 +40,7 @@ use crate::trial::{
 pub use asking::PROGRAM_ANSWER_WITHIN;
 use asking::ProgramQueries;
 pub use branch_point::{BranchPoint, Progress};
+pub use code::RefusalCode;
 pub use error::CommandError;
 use history::History;
 pub use kept_runs::KeptRunSummary;

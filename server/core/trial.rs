@@ -48,7 +48,7 @@ pub use control_query::{ControlQuery, Leg};
 pub use decide::Question;
 pub use disturb::far_point;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
-pub use event::{Event, EventKind};
+pub use event::{Event, EventKind, Happening, Resumption};
 pub use input::Input;
 pub use input_error::{InputError, REASON_BYTES_MOST};
 pub use log::{InputLog, LogError, LogWriter};

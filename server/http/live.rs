@@ -36,7 +36,7 @@ use super::socket::{Incoming, Limits, Socket, Upgrade};
 use crate::protocol::{ClientMessage, DoneMessage, Envelope, EventMessage, MAX_MESSAGE_BYTES, Refusal, ServerMessage};
 use crate::session::CommandError;
 use ferry_core::scenario::ControllerName;
-use ferry_core::session::Command;
+use ferry_core::session::{Command, RefusalCode};
 use ferry_core::trial::{Case, Event};
 
 const LIMITS: Limits = Limits { message_bytes: MAX_MESSAGE_BYTES, ping_every: Duration::from_secs(15) };
@@ -192,7 +192,7 @@ impl Connection {
                 message = self.socket.next() => match message? {
                     Some(Incoming::Text(text)) => self.handle(&text, &mut out).await?,
                     Some(Incoming::Binary) => {
-                        let refusal = Refusal::new("malformed", "binary messages are not understood", None);
+                        let refusal = Refusal::new(RefusalCode::Malformed, "binary messages are not understood", None);
                         self.refuse(None, refusal).await?;
                     }
                     None => return Ok(()),
@@ -200,7 +200,7 @@ impl Connection {
                 Some((id, stepped)) = self.stepping.next() => self.answer(id, stepped.map_err(Refusal::from), &mut out).await?,
                 () = hand.silenced.notified() => {
                     let message = format!("no message from the page that holds the bead for {} s: the bead was released and the session paused", hand::SILENCE.as_secs());
-                    self.refuse(None, Refusal::new("hand_silent", &message, None)).await?;
+                    self.refuse(None, Refusal::new(RefusalCode::HandSilent, &message, None)).await?;
                 }
                 () = async { drop(closing.wait_for(|&closed| closed).await) } => return self.socket.close("the session was closed").await,
             }
@@ -263,7 +263,7 @@ impl Connection {
         let (Envelope { id, epoch }, message) = ClientMessage::parse_with_envelope(text);
         let taken = match message {
             Ok(message) => self.take(message, epoch).await,
-            Err(error) => Err(error.into()),
+            Err(error) => Err(Refusal::new(RefusalCode::Malformed, &error.message, error.field.as_deref())),
         };
         // A command that waited for the end of a `step` is answered after it.
         while let Some(Some((id, stepped))) = self.stepping.next().now_or_never() {
@@ -315,11 +315,11 @@ impl Connection {
                 let seats = *self.hub.seats().borrow();
                 if seats.operator != Some(own) {
                     let text = "another browser has control; take control first";
-                    return Err(Refusal::new("not_operator", text, None));
+                    return Err(Refusal::new(RefusalCode::NotOperator, text, None));
                 }
                 if let Some(meant) = epoch.filter(|&epoch| epoch != seats.epoch) {
                     let text = format!("epoch is {meant}, but another browser took control; it is now {}", seats.epoch);
-                    return Err(Refusal::new("stale_epoch", &text, Some("epoch")));
+                    return Err(Refusal::new(RefusalCode::StaleEpoch, &text, Some("epoch")));
                 }
                 let taken = self.obey(message).await?;
                 self.hub.reseat(Seats::command);
@@ -388,7 +388,7 @@ impl Connection {
     async fn refuse(&mut self, id: Option<u64>, refusal: Refusal) -> Result<(), axum::Error> {
         self.send_message(&match id {
             Some(id) => ServerMessage::Refused(refusal.of(id)),
-            None => ServerMessage::Error(refusal.message),
+            None => ServerMessage::Error(refusal.into()),
         })
         .await
     }

@@ -7,6 +7,7 @@ use utoipa::ToSchema;
 
 use super::ErrorMessage;
 use crate::session::CommandError;
+use ferry_core::session::RefusalCode;
 
 /// See `ServerMessage::Done`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
@@ -25,8 +26,7 @@ pub struct RefusedMessage {
     /// That of the message.
     #[ts(type = "number")]
     pub id: u64,
-    /// For programs, such as `in_wall`.
-    pub code: String,
+    pub code: RefusalCode,
     /// The field of the message that it is about.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -42,32 +42,38 @@ pub struct RefusedMessage {
 /// Why a message was refused.
 #[derive(Clone, Debug)]
 pub struct Refusal {
-    pub message: ErrorMessage,
+    pub code: RefusalCode,
+    pub field: Option<String>,
     pub values: Map<String, Value>,
+    pub detail: String,
 }
 
 impl Refusal {
-    pub fn new(code: &str, message: &str, field: Option<&str>) -> Self {
-        let (code, message, field) = (code.to_owned(), message.to_owned(), field.map(str::to_owned));
-        ErrorMessage { code, message, field }.into()
+    pub fn new(code: RefusalCode, detail: &str, field: Option<&str>) -> Self {
+        Self { code, field: field.map(str::to_owned), values: Map::new(), detail: detail.to_owned() }
     }
 
     /// The answer to the message of this id.
     pub fn of(self, id: u64) -> RefusedMessage {
-        let Self { message: ErrorMessage { code, message: detail, field }, values } = self;
+        let Self { code, field, values, detail } = self;
         RefusedMessage { id, code, field, values, detail }
     }
 }
 
-impl From<ErrorMessage> for Refusal {
-    fn from(message: ErrorMessage) -> Self {
-        Self { message, values: Map::new() }
+impl From<Refusal> for ErrorMessage {
+    fn from(Refusal { code, field, detail, .. }: Refusal) -> Self {
+        Self { code: code.to_string(), message: detail, field }
     }
 }
 
 impl From<CommandError> for Refusal {
     fn from(error: CommandError) -> Self {
         let values = error.values().into_iter().map(|(name, value)| (name.to_owned(), value));
-        Self { message: ErrorMessage::from(&error), values: values.collect() }
+        Self {
+            code: error.code(),
+            field: error.field().map(str::to_owned),
+            values: values.collect(),
+            detail: error.to_string(),
+        }
     }
 }

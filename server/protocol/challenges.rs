@@ -10,6 +10,7 @@ use crate::boards::{Entry, Signature};
 use ferry_core::challenge::{
     Attempt, Challenge, ChallengeName, Difficulty, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
 };
+use ferry_core::facts::{Told, VoidFact};
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::Numbers2;
 use ferry_core::session::{Ended, Played, Standing};
@@ -135,7 +136,7 @@ pub struct AttemptStanding {
     /// Not delivered within the time limit.
     pub is_time_up: bool,
     /// Why it does not count.
-    pub void: Option<String>,
+    pub void: Option<Told<VoidFact>>,
 }
 
 impl From<&Entry> for BoardEntry {
@@ -153,7 +154,7 @@ impl From<&Standing> for AttemptStanding {
             total_s: standing.score.total_s(),
             is_delivered: standing.is_delivered,
             is_time_up: standing.is_time_up,
-            void: standing.void.map(|why| why.to_string()),
+            void: standing.void.as_ref().map(Told::of),
         }
     }
 }

@@ -5,6 +5,8 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::OverlayMessage;
+use ferry_core::control::switching::Reason;
+use ferry_core::facts::{PhaseFact, RefusalFact, Told, TroubleFact};
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::{Numbers2, Numbers4};
@@ -27,16 +29,16 @@ pub struct MomentMessage {
     pub mode: u8,
     /// Whether the step switched the sub-controller.
     pub switched: bool,
-    /// Why, in one sentence.
-    pub reason: String,
+    /// Why it is active.
+    pub reason: Told<Reason>,
     /// e: distance from tool to tracked bead in the plane.
     pub error_m: f64,
     /// The limit for e: T, or the fetch radius during a fetch.
     pub threshold_m: f64,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
-    /// What the arm does, as in the state.
-    pub phase: String,
+    /// What the trial does, as in the state.
+    pub phase: Told<PhaseFact>,
     /// Tool point.
     #[schema(value_type = Numbers2)]
     pub tool_m: [f64; 2],
@@ -53,9 +55,9 @@ pub struct MomentMessage {
     #[schema(value_type = Option<Numbers2>)]
     pub target_m: Option<[f64; 2]>,
     /// Why the arm holds, if a step was refused.
-    pub refusal: Option<String>,
+    pub refusal: Option<Told<RefusalFact>>,
     /// What keeps the controller from the goal, if anything.
-    pub trouble: Option<String>,
+    pub trouble: Option<Told<TroubleFact>>,
     /// The controller's observation and layers.
     pub overlay: Box<OverlayMessage>,
 }
@@ -75,7 +77,7 @@ impl MomentMessage {
             error_m: decision.switching.error_m,
             threshold_m: decision.switching.threshold_m,
             controller: point.controller(),
-            phase: record.moment.phase.to_string(),
+            phase: Told::of(&record.moment.phase),
             tool_m: before.tool_m.xy().coords.into(),
             bead_m: before.bead_m.xy().coords.into(),
             bead_tracked_m: before.tracked_m.coords.into(),
@@ -84,8 +86,8 @@ impl MomentMessage {
                 Motion::Segment(step) => Some(step.target_m.coords.into()),
                 Motion::Hold | Motion::Track | Motion::Joints(_) => None,
             },
-            refusal: decision.refusal.as_ref().map(ToString::to_string),
-            trouble: record.moment.trouble.map(|trouble| trouble.to_string()),
+            refusal: decision.refusal.as_ref().map(Told::of),
+            trouble: record.moment.trouble.as_ref().map(Told::of),
             overlay: Box::new(overlay),
         })
     }
@@ -129,8 +131,8 @@ pub struct Branch {
     pub samples: Vec<[f64; 4]>,
     /// Whether it has ended.
     pub done: bool,
-    /// Last phase, as in the state.
-    pub phase: String,
+    /// Last phase, as in the state; `null` before the first tick.
+    pub phase: Option<Told<PhaseFact>>,
     /// Tick of the first delivery after the moment.
     #[ts(type = "number | null")]
     pub delivered_tick: Option<u64>,
@@ -172,7 +174,7 @@ impl Branch {
             program: program.map(|program| program.name.clone()),
             samples: Vec::new(),
             done: false,
-            phase: String::new(),
+            phase: None,
             delivered_tick: None,
             tracking_error_mean_m: 0.0,
             tracking_error_max_x_m: 0.0,
@@ -193,7 +195,7 @@ impl Branch {
         let before = point.counters();
         self.done = progress.done;
         self.delivered_tick = progress.delivered_tick;
-        self.phase = moment.phase.to_string();
+        self.phase = Some(Told::of(&moment.phase));
         self.tracking_error_mean_m = progress.tally.mean_m();
         [self.tracking_error_max_x_m, self.tracking_error_max_y_m] = progress.tally.max_m();
         self.steps = moment.counters.steps - before.steps;

@@ -20,17 +20,7 @@ pub struct ErrorMessage {
 
 impl From<&CommandError> for ErrorMessage {
     fn from(error: &CommandError) -> Self {
-        let (code, field) = match error {
-            CommandError::Session(error) => (error.code(), error.field()),
-            CommandError::NoProgram { .. } => ("no_program", Some("program")),
-            CommandError::NoTry { .. } => ("no_try", Some("recovery")),
-            CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
-            CommandError::NoRobot => ("no_robot", None),
-            CommandError::Drive(_) => ("robot_refused", None),
-            CommandError::Busy => ("busy", None),
-            CommandError::Unanswered => ("unanswered", None),
-            CommandError::Ended => ("ended", None),
-        };
-        Self { code: code.to_owned(), message: error.to_string(), field: field.map(str::to_owned) }
+        let field = error.field().map(str::to_owned);
+        Self { code: error.code().to_string(), message: error.to_string(), field }
     }
 }

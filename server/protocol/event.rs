@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
+use ferry_core::facts::Told;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
-use ferry_core::trial::{Event, EventKind};
+use ferry_core::trial::{Event, EventKind, Happening};
 
 /// See `ServerMessage::Event`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -14,8 +15,7 @@ pub struct EventMessage {
     pub tick: u64,
     pub sim_time_s: f64,
     pub kind: EventKind,
-    /// One sentence.
-    pub text: String,
+    pub what: Told<Happening>,
     /// Part of the past of a run that the session has returned to; omitted otherwise.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[ts(optional, as = "Option<bool>")]
@@ -27,8 +27,8 @@ impl From<&Event> for EventMessage {
         Self {
             tick: event.tick,
             sim_time_s: event.tick as f64 * SERVO_PERIOD_S,
-            kind: event.kind,
-            text: event.text.clone(),
+            kind: event.kind(),
+            what: Told { fact: event.what.clone(), text: event.text() },
             again: false,
         }
     }

@@ -10,6 +10,8 @@ use super::{
     RefusedMessage, SeenMessage,
 };
 use crate::session::View;
+use ferry_core::control::switching::Reason;
+use ferry_core::facts::{PhaseFact, RefusalFact, Told, TroubleFact};
 use ferry_core::geometry::{Point2, Polygon, Rect};
 use ferry_core::plant::{BEAD_RADIUS_M, PositionerKind};
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
@@ -248,17 +250,17 @@ pub struct StateMessage {
     pub joints_rad: Option<[f64; 6]>,
     /// Active sub-controller, 1 or 2.
     pub mode: u8,
-    /// Why it is active, in one sentence.
-    pub reason: String,
+    /// Why it is active.
+    pub reason: Told<Reason>,
     /// Why the arm holds, if a step was refused.
-    pub refusal: Option<String>,
+    pub refusal: Option<Told<RefusalFact>>,
     /// Why sub-controller 2 makes no progress, if it makes none.
     #[serde(default)]
-    pub trouble: Option<String>,
+    pub trouble: Option<Told<TroubleFact>>,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
-    /// Phase: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
-    pub phase: String,
+    /// What the trial does now.
+    pub phase: Told<PhaseFact>,
     /// Tool minus bead, x.
     pub tracking_error_x_m: f64,
     /// Tool minus bead, y.
@@ -364,10 +366,10 @@ impl From<&View> for StateMessage {
             joints_rad: m.positioner.joints_rad(),
             mode: m.switching.mode.index(),
             reason: m.reason(),
-            refusal: m.refusal.clone(),
-            trouble: m.trouble.map(|trouble| trouble.to_string()),
+            refusal: m.refusal.as_ref().map(Told::of),
+            trouble: m.trouble.as_ref().map(Told::of),
             controller: m.controller,
-            phase: m.phase.to_string(),
+            phase: Told::of(&m.phase),
             tracking_error_x_m: error.x,
             tracking_error_y_m: error.y,
             tracking_error_m: error.norm(),

@@ -142,7 +142,7 @@ impl Notes {
             self.content.controllers.push(moment.controller);
         }
         for event in events {
-            self.event(event.kind, moment.goal_m.is_some());
+            self.event(event.kind(), moment.goal_m.is_some());
         }
     }
 

@@ -161,7 +161,7 @@ impl Writer {
     }
 
     pub(super) fn event(&mut self, event: &Event) {
-        self.log("log", &TextLog::new(event.text.as_str()).with_level(level(event.kind)));
+        self.log("log", &TextLog::new(event.text()).with_level(level(event.kind())));
     }
 
     pub(super) fn sample(&mut self, sample: &Sample, timeline: &mut TimelinePosition) -> Result<(), RecordingError> {

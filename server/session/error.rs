@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::{ANSWER_WITHIN, COMMAND_QUEUE};
-use ferry_core::session::CommandError as SessionError;
+use ferry_core::session::{CommandError as SessionError, RefusalCode};
 use ferry_ur::twin::DriveError;
 
 /// Why a command was refused; the session is unchanged.
@@ -39,6 +39,32 @@ pub enum CommandError {
 }
 
 impl CommandError {
+    /// One word for programs.
+    pub fn code(&self) -> RefusalCode {
+        match self {
+            Self::Session(error) => error.code(),
+            Self::NoProgram { .. } => RefusalCode::NoProgram,
+            Self::NoTry { .. } => RefusalCode::NoTry,
+            Self::NoGoal { .. } => RefusalCode::NoGoal,
+            Self::NoRobot => RefusalCode::NoRobot,
+            Self::Drive(_) => RefusalCode::RobotRefused,
+            Self::Busy => RefusalCode::Busy,
+            Self::Unanswered => RefusalCode::Unanswered,
+            Self::Ended => RefusalCode::Ended,
+        }
+    }
+
+    /// The field of the command that it is about.
+    pub fn field(&self) -> Option<&str> {
+        match self {
+            Self::Session(error) => error.field(),
+            Self::NoProgram { .. } => Some("program"),
+            Self::NoTry { .. } => Some("recovery"),
+            Self::NoGoal { .. } => Some("tick"),
+            _ => None,
+        }
+    }
+
     /// What was refused, by name, for programs.
     pub fn values(&self) -> Vec<(&'static str, Value)> {
         match self {

@@ -6,7 +6,7 @@ use std::time::Instant;
 use ferry_core::image::ImageSource;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::{Command, Session};
-use ferry_core::trial::{Event, EventKind, Input};
+use ferry_core::trial::{Event, Happening, Input};
 use ferry_ur::news::Item;
 use ferry_ur::{Robot, Standing, Twin, TwinStanding};
 
@@ -74,7 +74,7 @@ impl RobotLink {
                 robot.stop(&error);
             }
             let news = robot.controller().take_news();
-            report(session, "robot client", news);
+            report(session, true, news);
         }
         // While a program is asked, the tick has its place already.
         if let Some(twin) = self.twin.as_ref().filter(|_| !session.asks()) {
@@ -105,16 +105,14 @@ impl RobotLink {
     /// Reports what has happened to the robot outside.
     pub fn report_news<E: ImageSource>(&self, session: &mut Session<E>) {
         if let Some(twin) = &self.twin {
-            report(session, "robot", twin.take_news());
+            report(session, false, twin.take_news());
         }
     }
 }
 
-/// `whom` is what the news are about.
-fn report<E: ImageSource>(session: &mut Session<E>, whom: &str, news: Vec<Item>) {
+fn report<E: ImageSource>(session: &mut Session<E>, is_client: bool, news: Vec<Item>) {
     let tick = session.trial().state().world.tick;
-    for Item { is_refused, text } in news {
-        let kind = if is_refused { EventKind::Refused } else { EventKind::Session };
-        session.report(Event::new(tick, kind, format!("{whom}: {text}")));
+    for Item { is_refused, text: detail } in news {
+        session.report(Event::new(tick, Happening::Robot { is_client, is_refused, detail }));
     }
 }

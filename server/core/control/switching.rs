@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::facts::Told;
 use crate::geometry::Point2;
 use crate::scenario::{Parameters, SwitchingLaw};
 
@@ -35,19 +36,43 @@ pub struct Decision {
     pub threshold_m: f64,
 }
 
+/// Why a sub-controller is active.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[serde(tag = "code", rename_all = "snake_case")]
+pub enum Reason {
+    #[error("bead lost: {:.0} mm away, more than T = {:.0} mm", error_m * 1e3, threshold_m * 1e3)]
+    Lost { error_m: f64, threshold_m: f64 },
+    #[error("fetching: {:.0} mm away, but a wall is between", error_m * 1e3)]
+    WallBetween { error_m: f64 },
+    #[error("fetching: {:.0} mm away, not yet within {:.0} mm", error_m * 1e3, threshold_m * 1e3)]
+    Fetching { error_m: f64, threshold_m: f64 },
+    #[error("bead fetched: {:.0} mm away, within {:.0} mm", error_m * 1e3, threshold_m * 1e3)]
+    Fetched { error_m: f64, threshold_m: f64 },
+    #[error("bead held: {:.0} mm away, within T = {:.0} mm", error_m * 1e3, threshold_m * 1e3)]
+    Held { error_m: f64, threshold_m: f64 },
+    #[error("lift-off: the bead hangs on the magnet; take it off by hand, or reset")]
+    LiftedOff,
+}
+
 impl Decision {
-    /// One plain sentence for the event log.
-    pub fn reason(&self) -> String {
-        let (e_mm, limit_mm) = (self.error_m * 1e3, self.threshold_m * 1e3);
-        match (self.mode, self.switched) {
-            (Mode::Approach, true) => format!("bead lost: {e_mm:.0} mm away, more than T = {limit_mm:.0} mm"),
-            (Mode::Approach, false) if self.error_m <= self.threshold_m => {
-                format!("fetching: {e_mm:.0} mm away, but a wall is between")
-            }
-            (Mode::Approach, false) => format!("fetching: {e_mm:.0} mm away, not yet within {limit_mm:.0} mm"),
-            (Mode::Transport, true) => format!("bead fetched: {e_mm:.0} mm away, within {limit_mm:.0} mm"),
-            (Mode::Transport, false) => format!("bead held: {e_mm:.0} mm away, within T = {limit_mm:.0} mm"),
-        }
+    pub fn reason(&self) -> Told<Reason> {
+        let Self { error_m, threshold_m, .. } = *self;
+        let reason = match (self.mode, self.switched) {
+            (Mode::Approach, true) => Reason::Lost { error_m, threshold_m },
+            (Mode::Approach, false) if error_m <= threshold_m => Reason::WallBetween { error_m },
+            (Mode::Approach, false) => Reason::Fetching { error_m, threshold_m },
+            (Mode::Transport, true) => Reason::Fetched { error_m, threshold_m },
+            (Mode::Transport, false) => Reason::Held { error_m, threshold_m },
+        };
+        reason.told()
+    }
+}
+
+impl Reason {
+    /// With its sentence.
+    pub fn told(self) -> Told<Self> {
+        Told { fact: self, text: self.to_string() }
     }
 }
 
@@ -93,7 +118,7 @@ mod tests {
         let parameters = Parameters::default();
         let at = |mode| decide(mode, Point2::origin(), Point2::new(0.005, 0.0), &parameters, || true);
         assert_eq!(at(Mode::Approach).mode, Mode::Approach);
-        assert_eq!(at(Mode::Approach).reason(), "fetching: 5 mm away, but a wall is between");
+        assert_eq!(at(Mode::Approach).reason().text, "fetching: 5 mm away, but a wall is between");
         assert_eq!(at(Mode::Transport).mode, Mode::Transport);
     }
 

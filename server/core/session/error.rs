@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::RefusalCode;
 use crate::challenge::ChallengeError;
 use crate::map::MapError;
 use crate::scenario::ParameterError;
@@ -57,23 +58,23 @@ pub enum CommandError {
 
 impl CommandError {
     /// One word for programs.
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> RefusalCode {
         match self {
             Self::Input(error) | Self::Trial(TrialError::Input(error)) => error.code(),
             Self::Map(_) | Self::Challenge(_) | Self::Trial(TrialError::Map(_) | TrialError::Random(_)) => {
-                "map_refused"
+                RefusalCode::MapRefused
             }
-            Self::Trial(TrialError::Policy(_)) => "unknown_policy",
-            Self::Trial(TrialError::Parameter(_)) => "parameter_out_of_range",
-            Self::Trial(TrialError::Script { .. } | TrialError::LongScript { .. }) => "bad_script",
-            Self::Trial(_) => "trial_failed",
-            Self::Case(_) => "bad_case",
-            Self::OtherDrawing { .. } => "other_drawing",
-            Self::Range { .. } => "out_of_range",
-            Self::NoChallenge => "no_challenge",
-            Self::NoRun { .. } => "no_run",
-            Self::NothingCarried { .. } => "nothing_carried",
-            Self::Forgotten => "forgotten",
+            Self::Trial(TrialError::Policy(_)) => RefusalCode::UnknownPolicy,
+            Self::Trial(TrialError::Parameter(_)) => RefusalCode::ParameterOutOfRange,
+            Self::Trial(TrialError::Script { .. } | TrialError::LongScript { .. }) => RefusalCode::BadScript,
+            Self::Trial(_) => RefusalCode::TrialFailed,
+            Self::Case(_) => RefusalCode::BadCase,
+            Self::OtherDrawing { .. } => RefusalCode::OtherDrawing,
+            Self::Range { .. } => RefusalCode::OutOfRange,
+            Self::NoChallenge => RefusalCode::NoChallenge,
+            Self::NoRun { .. } => RefusalCode::NoRun,
+            Self::NothingCarried { .. } => RefusalCode::NothingCarried,
+            Self::Forgotten => RefusalCode::Forgotten,
         }
     }
 

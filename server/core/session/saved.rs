@@ -12,8 +12,8 @@ use crate::map::{Library, Map};
 use crate::panics;
 use crate::scenario::Scenario;
 use crate::trial::{
-    Arena, Beginning, Entry, Event, EventKind, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, Trial,
-    TrialError, TrialState,
+    Arena, Beginning, Entry, Event, Happening, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, Resumption,
+    Trial, TrialError, TrialState,
 };
 
 /// Why a saved trial was left out.
@@ -108,22 +108,18 @@ impl<E: ImageSource> Session<E> {
             self.keep(runs);
         }
         let how = match tick.is_some() {
-            true => "the session goes on from its last saved state",
-            false if goes_on => "the session started over",
-            false => "the session started over; what was saved is kept as runs",
+            true => Resumption::GoesOn,
+            false if goes_on => Resumption::StartedOver,
+            false => Resumption::StartedOverWithRuns,
         };
-        let text = match errors.first() {
-            None => how.to_owned(),
-            Some(first) => {
-                let count = match errors.len() {
-                    1 => "a saved trial".to_owned(),
-                    count => format!("{count} saved trials"),
-                };
-                format!("{how}; {count} could not be read: {first}")
-            }
-        };
-        let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
-        self.note(event);
+        let lost = errors.first().map(|first| {
+            let count = match errors.len() {
+                1 => "a saved trial".to_owned(),
+                count => format!("{count} saved trials"),
+            };
+            format!("{count} could not be read: {first}")
+        });
+        self.note(Event::new(self.trial.state().world.tick, Happening::Resumed { how, lost }));
         Resumed { tick, has_left_out: !errors.is_empty() }
     }
 

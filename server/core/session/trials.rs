@@ -10,7 +10,7 @@ use crate::image::ImageSource;
 use crate::map::is_added;
 use crate::scenario::Scenario;
 use crate::trial::{
-    Arena, Beginning, Case, Event, EventKind, Input, InputError, Origin, Sight, Timed, Trial, TrialError,
+    Arena, Beginning, Case, Event, Happening, Input, InputError, Origin, Sight, Timed, Trial, TrialError,
 };
 
 impl<E: ImageSource> Session<E> {
@@ -66,11 +66,9 @@ impl<E: ImageSource> Session<E> {
         self.sight = Arc::new((0, sight));
         self.history.keep_state(self.trial.snapshot());
         let scenario = self.trial.scenario();
-        let inputs = self.scenery.case.as_ref().map(|case| case.inputs().len());
-        let case = inputs.map_or(String::new(), |count| format!(", test case with {count} inputs"));
-        let text = format!("set up: map {}, seed {}{case}", scenario.map, scenario.seed);
-        let event = Event::new(0, EventKind::Session, text);
-        self.note(event);
+        let inputs = self.scenery.case.as_ref().map(|case| case.inputs().len() as u32);
+        let what = Happening::SetUp { map: scenario.map.clone(), seed: scenario.seed, inputs };
+        self.note(Event::new(0, what));
         self.apply_case();
         if !self.trial.waiting_inputs().is_empty() {
             self.history.keep_state(self.trial.snapshot());
@@ -84,9 +82,7 @@ impl<E: ImageSource> Session<E> {
         let prepared = self.prepare(run)?;
         let Some(run) = self.history.take_run(number) else { return Err(CommandError::NoRun { number }) };
         self.take_up(run, prepared);
-        let text = format!("returned to run {number}");
-        let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
-        self.note(event);
+        self.note(Event::new(self.trial.state().world.tick, Happening::Returned { run: number }));
         Ok(())
     }
 
@@ -97,13 +93,12 @@ impl<E: ImageSource> Session<E> {
         inputs: Vec<Timed>,
     ) -> Result<(), CommandError> {
         let timeline = Timeline::from_state(state.clone());
-        let text = format!("set up: {about}");
+        let what = Happening::TookUp { about: about.clone() };
         let case = Some(Arc::new(OpenedCase::new(about, inputs, None)));
         let run = KeptRun { scenario, arena, state, timeline, journal: Arc::default(), case };
         let prepared = self.prepare(&run)?;
         self.take_up(run, prepared);
-        let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
-        self.note(event);
+        self.note(Event::new(self.trial.state().world.tick, what));
         self.apply_case();
         self.observe();
         Ok(())
@@ -174,7 +169,7 @@ impl<E: ImageSource> Session<E> {
         let Some(case) = self.scenery.case.clone() else { return };
         let tick = self.trial.state().world.tick;
         let due = case.inputs_from(tick).iter().take_while(|timed| timed.tick == tick);
-        let (mut configures, mut left_out) = (false, None::<(usize, InputError)>);
+        let (mut configures, mut left_out) = (false, None::<(u32, InputError)>);
         for Timed { input, .. } in due {
             match self.trial.apply(input.clone()) {
                 Ok(()) => configures |= matches!(input, Input::Configure(_)),
@@ -185,9 +180,7 @@ impl<E: ImageSource> Session<E> {
             self.scenery = self.next_scenery(0).into();
         }
         if let Some((count, error)) = left_out {
-            let text = format!("test case: {count} inputs at this tick were left out; the last one because {error}");
-            let event = Event::new(tick, EventKind::Session, text);
-            self.note(event);
+            self.note(Event::new(tick, Happening::InputsLeftOut { count, detail: error.to_string() }));
         }
     }
 

@@ -81,7 +81,7 @@ impl Bench {
     }
 
     fn said(&self, part: &str) -> bool {
-        self.events.iter().any(|event| event.text.contains(part))
+        self.events.iter().any(|event| event.text().contains(part))
     }
 }
 
@@ -177,7 +177,8 @@ fn a_program_is_asked_and_its_silence_holds_the_arm() {
     let (number, _) = asked(&bench);
     let held = bench.run_until("the hold", |view| view.moment.tick > moved.moment.tick);
     assert!(bench.now - before >= PROGRAM_ANSWER_WITHIN);
-    assert_eq!(held.moment.refusal.as_deref(), Some("the program: mine gave no answer within 100 ms"));
+    let refusal = held.moment.refusal.unwrap().to_string();
+    assert_eq!(refusal, "the program: mine gave no answer within 100 ms");
     assert!(matches!(bench.others.last(), Some(Message::Unanswered { number: missed }) if *missed == number));
     bench.session.answer(number, Answer::Go { target_m });
     assert!(!bench.session.asks());

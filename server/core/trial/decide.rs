@@ -5,11 +5,12 @@ use std::borrow::Cow;
 use super::outcome::GOAL_RADIUS_M;
 use super::phase::{LEGS_PER_GOAL, Phase, StopReason};
 use super::record::Seen;
-use super::{ControllerState, Decision, Event, EventKind, Motion, Trial, TrialState, World};
+use super::{ControllerState, Decision, Event, Happening, Motion, Trial, TrialState, World};
 use crate::control::search::{Look, Search, SearchInput};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::{Carrier, TransportInput};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
+use crate::facts::Told;
 use crate::geometry::{Point2, Point3, Rect};
 use crate::image::CameraFrame;
 use crate::map::WALL_HEIGHT_M;
@@ -250,22 +251,20 @@ impl Trial {
         let switching = decision.switching;
         if switching.switched {
             self.state.world.counters.switches += 1;
-            let to = switching.mode.index();
-            let text = format!("sub-controller {to} takes over: {}", switching.reason());
-            self.events.push(Event::new(tick, EventKind::Switch, text));
+            let (sub_controller, reason) = (switching.mode.index(), switching.reason());
+            self.events.push(Event::new(tick, Happening::TookOver { sub_controller, reason }));
         }
         if let Some(refusal) = &decision.refusal {
             // Reported once, not at each step of a long hold.
             let before = &self.state.world.refusal;
             let begins_search =
                 matches!(refusal, Refusal::TrackerLost { is_searching: true }) && before.as_ref() != Some(refusal);
-            if begins_search {
-                self.events.push(Event::new(tick, EventKind::Refused, refusal.to_string()));
-            } else if before.is_none() {
-                self.events.push(Event::new(tick, EventKind::Refused, format!("the arm holds: {refusal}")));
+            if begins_search || before.is_none() {
+                let refusal = Told::of(refusal);
+                self.events.push(Event::new(tick, Happening::StepRefused { refusal, is_holding: !begins_search }));
             }
         } else if matches!(self.state.world.refusal, Some(Refusal::TrackerLost { .. })) {
-            self.events.push(Event::new(tick, EventKind::Session, "the tracker reports the bead again"));
+            self.events.push(Event::new(tick, Happening::TrackerBack));
         }
         let fetched = switching.switched && switching.mode == Mode::Transport;
         if fetched {

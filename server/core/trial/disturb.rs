@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 
 use super::script::Draw;
-use super::{Event, EventKind, InputError, Trial, TrialError, input::check_on_table};
+use super::{Event, Happening, InputError, Trial, TrialError, input::check_on_table};
 use crate::geometry::{Point2, Vector2};
 use crate::map::{FreeSpace, Map};
 use crate::plant::Bead;
@@ -79,7 +79,7 @@ impl Trial {
         let world = &mut self.state.world;
         let tick = world.tick;
         let bead = &mut world.plant.bead;
-        let text = match *disturbance {
+        let what = match *disturbance {
             Disturbance::Impulse { .. } | Disturbance::Drift { .. } if bead.lifted_off => return,
             Disturbance::Displace { .. } => {
                 // An arena always has room for the bead.
@@ -88,25 +88,25 @@ impl Trial {
                 world.plant.hand = None;
                 // The bead did not pass through the places between.
                 world.script.bead_before_m = Some(to);
-                format!("the bead was lifted {:.0} cm away", (to - from).norm() * 100.0)
+                Happening::Displaced { distance_m: (to - from).norm() }
             }
             Disturbance::Impulse { x_n_s, y_n_s } => {
                 bead.kick(Vector2::new(x_n_s, y_n_s));
-                format!("a kick of {:.2} mN·s", x_n_s.hypot(y_n_s) * 1e3)
+                Happening::Kicked { impulse_n_s: x_n_s.hypot(y_n_s) }
             }
             Disturbance::Drift { x_n, y_n, for_s } => {
                 // There is one push at a time: the last one replaces the others.
                 world.plant.drift_n = Vector2::new(x_n, y_n);
                 world.script.drift_until = tick + ticks(for_s);
-                format!("a push of {:.1} mN for {for_s} s", x_n.hypot(y_n) * 1e3)
+                Happening::Pushed { force_n: x_n.hypot(y_n), for_s }
             }
             Disturbance::Dropout { for_s } => {
                 world.script.dropout_until = world.script.dropout_until.max(tick + ticks(for_s));
-                format!("the tracker is blind for {for_s} s")
+                Happening::Blinded { for_s }
             }
         };
         world.counters.disturbances += 1;
-        self.events.push(Event::new(tick, EventKind::Disturbance, format!("disturbed: {text}")));
+        self.events.push(Event::new(tick, what));
     }
 
     /// Applies a random displacement: lifts the bead to a free point far away.
@@ -120,10 +120,7 @@ impl Trial {
         let bead_m = world.plant.bead.position_m;
         match far_point(map, space, space.component_at(bead_m), bead_m, &mut rng) {
             Some(to) => self.apply_disturbance(&Disturbance::Displace { x_m: to.x, y_m: to.y }),
-            None => {
-                let text = "no disturbance: no free place is far enough from the bead";
-                self.events.push(Event::new(world.tick, EventKind::Session, text));
-            }
+            None => self.events.push(Event::new(world.tick, Happening::NotDisturbed)),
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::input_error::{InputError, REASON_BYTES_MOST, WAITING_MOST};
-use super::{Event, EventKind, Motion, Phase, Trial, TrialState};
+use super::{Event, Happening, Motion, Phase, Trial, TrialState};
 use crate::control::limits::JointRefusal;
 use crate::control::transport::Carrier;
 use crate::control::transport::program::Answer;
@@ -130,8 +130,8 @@ impl Trial {
             Input::Release => self.release(),
             Input::SelectController(name) => {
                 if *name != self.state.controller {
-                    let text = format!("controller: {}", name.label());
-                    self.events.push(Event::new(self.state.world.tick, EventKind::Session, text));
+                    let what = Happening::ControllerSelected { controller: *name };
+                    self.events.push(Event::new(self.state.world.tick, what));
                 }
                 self.state.controller = *name;
                 let seed = self.state.world.script.seed(self.scenario.seed);
@@ -238,8 +238,7 @@ impl Trial {
         if !matches!(world.phase, Phase::LiftedOff | Phase::Approaching) {
             world.phase = Phase::Transporting;
         }
-        let text = format!("goal placed at ({:.3}, {:.3}) m", goal.x, goal.y);
-        self.events.push(Event::new(world.tick, EventKind::Goal, text));
+        self.events.push(Event::new(world.tick, Happening::GoalPlaced { x_m: goal.x, y_m: goal.y }));
         self.start_leg();
         self.state.controller_state.carrier.transport().start_leg();
         Ok(())
@@ -249,7 +248,7 @@ impl Trial {
         let world = &mut self.state.world;
         world.goal_m = None;
         world.reached_tick = None;
-        self.events.push(Event::new(world.tick, EventKind::Goal, "goal removed"));
+        self.events.push(Event::new(world.tick, Happening::GoalRemoved));
     }
 
     /// The pointer may be anywhere finite; the bead goes where walls let it.
@@ -263,7 +262,7 @@ impl Trial {
         world.plant.hand = Some(Hand { target_m, lift });
         if taken {
             world.counters.disturbances += 1;
-            self.events.push(Event::new(world.tick, EventKind::Disturbance, "disturbed: bead taken by hand"));
+            self.events.push(Event::new(world.tick, Happening::Taken));
         }
         if taken || put_down {
             self.set_down();
@@ -282,8 +281,7 @@ impl Trial {
         if world.plant.hand.take().is_none() {
             world.counters.disturbances += 1;
         }
-        let text = format!("disturbed: bead moved {:.0} cm by hand", (fit - from).norm() * 100.0);
-        self.events.push(Event::new(world.tick, EventKind::Disturbance, text));
+        self.events.push(Event::new(world.tick, Happening::Placed { distance_m: (fit - from).norm() }));
         Ok(())
     }
 
@@ -291,7 +289,7 @@ impl Trial {
         if self.state.world.plant.hand.take().is_some() {
             self.set_down();
             let world = &self.state.world;
-            self.events.push(Event::new(world.tick, EventKind::Disturbance, "bead released"));
+            self.events.push(Event::new(world.tick, Happening::Released));
         }
     }
 

@@ -5,6 +5,7 @@ use serde_json::Value;
 use crate::control::Refusal;
 use crate::control::limits::JointRefusal;
 use crate::scenario::{ControllerName, DisturbanceError, ParameterError};
+use crate::session::RefusalCode;
 
 /// Maximum number of inputs before one tick: a quarter of an hour of dragging while paused. All are logged.
 pub(super) const WAITING_MOST: usize = 50_000;
@@ -52,20 +53,20 @@ pub enum InputError {
 
 impl InputError {
     /// For programs.
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> RefusalCode {
         match self {
-            Self::NotFinite { .. } => "not_finite",
-            Self::OutsideWorkspace { .. } => "outside_workspace",
-            Self::InWall { .. } => "in_wall",
-            Self::Reach { .. } => "out_of_reach",
-            Self::Parameter(_) => "parameter_out_of_range",
-            Self::Disturbance(_) => "disturbance_out_of_range",
-            Self::NotYou(_) => "not_you",
-            Self::NotRobot(_) => "not_robot",
-            Self::Joints(_) => "joints_refused",
-            Self::NotProgram(_) => "not_program",
-            Self::LongReason { .. } => "long_reason",
-            Self::TooManyWait => "too_many_wait",
+            Self::NotFinite { .. } => RefusalCode::NotFinite,
+            Self::OutsideWorkspace { .. } => RefusalCode::OutsideWorkspace,
+            Self::InWall { .. } => RefusalCode::InWall,
+            Self::Reach { .. } => RefusalCode::OutOfReach,
+            Self::Parameter(_) => RefusalCode::ParameterOutOfRange,
+            Self::Disturbance(_) => RefusalCode::DisturbanceOutOfRange,
+            Self::NotYou(_) => RefusalCode::NotYou,
+            Self::NotRobot(_) => RefusalCode::NotRobot,
+            Self::Joints(_) => RefusalCode::JointsRefused,
+            Self::NotProgram(_) => RefusalCode::NotProgram,
+            Self::LongReason { .. } => RefusalCode::LongReason,
+            Self::TooManyWait => RefusalCode::TooManyWait,
         }
     }
 

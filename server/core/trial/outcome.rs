@@ -1,8 +1,9 @@
 //! Progress of the task, and when it ends.
 
-use super::{Event, EventKind, Motion, Phase, SETTLE_S, StopReason, Trial};
+use super::{Event, Happening, Motion, Phase, SETTLE_S, StopReason, Trial};
 use crate::control::Refusal;
 use crate::control::switching::Mode;
+use crate::facts::Told;
 use crate::robot::ur5::SERVO_PERIOD_S;
 
 /// The goal is *reached* when the tool is within this distance (the paper's test), and *delivered* when the
@@ -20,7 +21,7 @@ impl Trial {
             if world.phase != Phase::LiftedOff {
                 world.phase = Phase::LiftedOff;
                 world.motion = Motion::Hold;
-                self.events.push(Event::new(tick, EventKind::LiftOff, "lift-off: the bead jumped to the magnet"));
+                self.events.push(Event::new(tick, Happening::LiftedOff));
             }
             return;
         }
@@ -46,8 +47,7 @@ impl Trial {
                 world.counters.deliveries += 1;
                 world.counters.goal_steps = 0;
                 world.counters.leg_steps = 0;
-                let text = format!("delivered: bead within {:.0} mm of the goal", left_m * 1e3);
-                self.events.push(Event::new(tick, EventKind::Delivered, text));
+                self.events.push(Event::new(tick, Happening::Delivered { distance_m: left_m }));
             }
             Phase::Settling { since_tick } if tick.saturating_sub(since_tick) as f64 * SERVO_PERIOD_S > SETTLE_S => {
                 self.stop(StopReason::Settle);
@@ -60,7 +60,7 @@ impl Trial {
         let world = &mut self.state.world;
         world.phase = Phase::Stopped(reason);
         world.motion = Motion::Hold;
-        self.events.push(Event::new(world.tick, EventKind::Stopped, world.phase.to_string()));
+        self.events.push(Event::new(world.tick, Happening::Stopped { phase: Told::of(&world.phase) }));
     }
 
     /// Begins a new leg, because the goal moved or the bead was fetched.
@@ -97,11 +97,7 @@ impl Trial {
                 }
                 if world.reached_tick.is_none() {
                     world.reached_tick = Some(tick);
-                    self.events.push(Event::new(
-                        tick,
-                        EventKind::Reached,
-                        "reached: the tool is within 2 cm of the goal",
-                    ));
+                    self.events.push(Event::new(tick, Happening::Reached));
                 }
             }
             (Mode::Transport, Some(_)) => {

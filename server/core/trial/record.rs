@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use super::state::{Counters, TrialState, WorldHashes};
 use super::{Decision, Event, Input, Motion, Phase, Trial};
+use crate::control::switching::{self, Reason};
 use crate::control::transport::rl::Rl;
 use crate::control::transport::you::{Steering, You};
 use crate::control::transport::{Carrier, Trouble};
-use crate::control::{Refusal, step_is_due, switching};
+use crate::control::{Refusal, step_is_due};
+use crate::facts::Told;
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::image::{CameraError, ImageSource};
@@ -15,9 +17,6 @@ use crate::perception::{Observation, ObstacleMap, Percept, Quadtree, QuadtreePar
 use crate::plant::{Hand, Load, Plant, Positioner, WallMotion};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
-
-/// Instead of the switching law's reason, which no longer matters.
-const LIFTED_OFF: &str = "lift-off: the bead hangs on the magnet; take it off by hand, or reset";
 
 /// What the controller observed and computed at a control step.
 #[derive(Clone, Debug)]
@@ -101,7 +100,7 @@ pub struct Moment {
     /// Progress of the task.
     pub phase: Phase,
     /// Why the arm holds, if a step was refused.
-    pub refusal: Option<String>,
+    pub refusal: Option<Refusal>,
     /// Why the transport makes no progress, if it makes none.
     pub trouble: Option<Trouble>,
     /// Magnetic load on the bead.
@@ -117,10 +116,10 @@ impl Moment {
         self.tick as f64 * SERVO_PERIOD_S
     }
 
-    /// Why the active sub-controller is active, one plain sentence.
-    pub fn reason(&self) -> String {
+    /// Why the active sub-controller is active.
+    pub fn reason(&self) -> Told<Reason> {
         match self.phase {
-            Phase::LiftedOff => LIFTED_OFF.to_owned(),
+            Phase::LiftedOff => Reason::LiftedOff.told(),
             _ => self.switching.reason(),
         }
     }
@@ -174,7 +173,7 @@ impl Trial {
             controller: self.state.controller,
             motion: world.motion,
             phase: world.phase,
-            refusal: world.refusal.as_ref().map(ToString::to_string),
+            refusal: world.refusal.clone(),
             trouble: match world.refusal {
                 Some(Refusal::Closed) => Some(Trouble::Closed),
                 _ => self.state.controller_state.carrier.trouble(),

@@ -82,7 +82,7 @@ async fn a_session_goes_on_from_the_disk() {
     assert_eq!(again.session.resumed().tick, Some(50));
     let kept: Vec<_> = after.scenery.kept_runs.iter().map(|run| (run.seed, run.tick)).collect();
     assert_eq!(kept, [(1, 100)]);
-    let report = |session: &SessionHandle| session.watch().borrow().journal.last().unwrap().text.clone();
+    let report = |session: &SessionHandle| session.watch().borrow().journal.last().unwrap().text();
     assert_eq!(report(&again.session), "the session goes on from its last saved state");
     again.session.send(Command::Return(after.scenery.kept_runs[0].number)).await.unwrap();
     let returned = again.session.watch().borrow().clone();

@@ -280,7 +280,7 @@ pub fn episode_in(
             delivered,
             outcome: moment.phase.to_string(),
             trouble: trial.state().controller_state.carrier.trouble().map(|trouble| trouble.to_string()),
-            refusal: moment.refusal.clone(),
+            refusal: moment.refusal.as_ref().map(ToString::to_string),
             tally,
             shortest_m: scenario
                 .start_m

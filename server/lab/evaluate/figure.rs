@@ -70,7 +70,7 @@ impl Trace {
         let time_s = moment.sim_time_s();
         self.samples.push(Sample { time_s, tool_m: moment.tool_m.xy(), bead_m: moment.bead_m.xy() });
         let is_disturbance = |kind| kind == EventKind::Disturbance;
-        self.disturbed_s.extend(record.events.iter().filter(|event| is_disturbance(event.kind)).map(|_| time_s));
+        self.disturbed_s.extend(record.events.iter().filter(|event| is_disturbance(event.kind())).map(|_| time_s));
     }
 
     /// The figure as SVG.

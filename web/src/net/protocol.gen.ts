@@ -3,6 +3,7 @@
 export * from './parameters.gen';
 export * from './protocol/experiment.gen';
 export * from './protocol/messages.gen';
+export * from './protocol/facts.gen';
 export * from './protocol/session.gen';
 export * from './protocol/layers.gen';
 export * from './protocol/comparison.gen';
@@ -21,7 +22,7 @@ export * from './protocol/robot.gen';
 export * from './protocol/policies.gen';
 
 /** Version of the messages. */
-export const PROTOCOL_VERSION = 6;
+export const PROTOCOL_VERSION = 7;
 
 /** First byte of a binary message with a camera image. */
 export const BINARY_CAMERA_JPEG = 1;

@@ -1,6 +1,7 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 import type { ControllerName } from './experiment.gen';
+import type { Told, VoidFact } from './facts.gen';
 
 export type DifficultyName = "easy" | "medium" | "hard";
 
@@ -217,4 +218,4 @@ is_time_up: boolean,
 /**
  * Why it does not count.
  */
-void: string | null, };
+void: Told<VoidFact> | null, };

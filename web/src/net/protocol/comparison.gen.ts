@@ -1,6 +1,7 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 import type { ControllerName } from './experiment.gen';
+import type { PhaseFact, Reason, RefusalFact, Told, TroubleFact } from './facts.gen';
 import type { OverlayMessage } from './layers.gen';
 
 /**
@@ -20,9 +21,9 @@ samples: Array<[number, number, number, number]>,
  */
 done: boolean, 
 /**
- * Last phase, as in the state.
+ * Last phase, as in the state; `null` before the first tick.
  */
-phase: string, 
+phase: Told<PhaseFact> | null, 
 /**
  * Tick of the first delivery after the moment.
  */
@@ -110,9 +111,9 @@ mode: number,
  */
 switched: boolean, 
 /**
- * Why, in one sentence.
+ * Why it is active.
  */
-reason: string, 
+reason: Told<Reason>, 
 /**
  * e: distance from tool to tracked bead in the plane.
  */
@@ -126,9 +127,9 @@ threshold_m: number,
  */
 controller: ControllerName, 
 /**
- * What the arm does, as in the state.
+ * What the trial does, as in the state.
  */
-phase: string, 
+phase: Told<PhaseFact>, 
 /**
  * Tool point.
  */
@@ -152,11 +153,11 @@ target_m: [number, number] | null,
 /**
  * Why the arm holds, if a step was refused.
  */
-refusal: string | null, 
+refusal: Told<RefusalFact> | null, 
 /**
  * What keeps the controller from the goal, if anything.
  */
-trouble: string | null, 
+trouble: Told<TroubleFact> | null, 
 /**
  * The controller's observation and layers.
  */

@@ -3,6 +3,7 @@
 import type { Parameters } from '../parameters.gen';
 import type { ComparisonMessage } from './comparison.gen';
 import type { ControllerName, Disturbance, PositionerKind, Scripted } from './experiment.gen';
+import type { Happening, RefusalCode, Told } from './facts.gen';
 import type { OverlayMessage, SeenMessage } from './layers.gen';
 import type { SceneMessage, StateMessage } from './session.gen';
 
@@ -104,11 +105,7 @@ export type EventKind = "switch" | "disturbance" | "goal" | "reached" | "deliver
 /**
  * See `ServerMessage::Event`.
  */
-export type EventMessage = { tick: number, sim_time_s: number, kind: EventKind, 
-/**
- * One sentence.
- */
-text: string, 
+export type EventMessage = { tick: number, sim_time_s: number, kind: EventKind, what: Told<Happening>, 
 /**
  * Part of the past of a run that the session has returned to; omitted otherwise.
  */
@@ -147,11 +144,7 @@ export type RefusedMessage = {
 /**
  * That of the message.
  */
-id: number, 
-/**
- * For programs, such as `in_wall`.
- */
-code: string, 
+id: number, code: RefusalCode, 
 /**
  * The field of the message that it is about.
  */

@@ -3,6 +3,7 @@
 import type { Parameters } from '../parameters.gen';
 import type { AttemptStanding } from './challenges.gen';
 import type { ControllerName, Polygon, PositionerKind, Rect, Scenario } from './experiment.gen';
+import type { PhaseFact, Reason, RefusalFact, Told, TroubleFact } from './facts.gen';
 import type { ProgramStanding } from './programs.gen';
 import type { RobotStanding, TwinStanding } from './robot.gen';
 
@@ -184,25 +185,25 @@ joints_rad: [number, number, number, number, number, number] | null,
  */
 mode: number, 
 /**
- * Why it is active, in one sentence.
+ * Why it is active.
  */
-reason: string, 
+reason: Told<Reason>, 
 /**
  * Why the arm holds, if a step was refused.
  */
-refusal: string | null, 
+refusal: Told<RefusalFact> | null, 
 /**
  * Why sub-controller 2 makes no progress, if it makes none.
  */
-trouble: string | null, 
+trouble: Told<TroubleFact> | null, 
 /**
  * Sub-controller 2 in use.
  */
 controller: ControllerName, 
 /**
- * Phase: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
+ * What the trial does now.
  */
-phase: string, 
+phase: Told<PhaseFact>, 
 /**
  * Tool minus bead, x.
  */
