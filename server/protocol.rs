@@ -30,7 +30,7 @@ mod trainings;
 mod typescript;
 mod workspace;
 
-pub use answer::{DoneMessage, Refusal, RefusedMessage};
+pub use answer::{DoneMessage, Refusal, RefusedMessage, SessionError};
 pub use challenges::{
     AttemptAnswer, AttemptQuery, AttemptReport, AttemptStanding, BoardEntry, ChallengeReport, ChallengeSummary,
     Challenges, GhostMessage, Ghosts, MishapMessage, Period, TraceMessage,

@@ -32,7 +32,7 @@ async fn done_follows_the_state_the_scene_and_the_events_that_show_it() {
         let came = ask(&mut browser, 10, json!({"type": "set_goal", "x_m": x_m, "y_m": -0.33})).await;
         assert_eq!(came.last().unwrap(), &json!({"type": "done", "id": 10, "trial": round}));
         assert_eq!(last(&came, "state")["goal_m"], json!([x_m, -0.33, 0.0]));
-        assert!(last(&came, "event")["text"].as_str().unwrap().contains("goal"), "{came:?}");
+        assert!(last(&came, "event")["what"]["text"].as_str().unwrap().contains("goal"), "{came:?}");
 
         // That of a step comes at its end; what is sent meanwhile is answered in order.
         browser.send(json!({"type": "step", "ticks": 40, "id": 11})).await;

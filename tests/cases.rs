@@ -175,7 +175,7 @@ async fn impossible_inputs_of_an_opened_case_are_left_out_and_reported() {
     assert_eq!(scene["case"]["about"].as_str().unwrap().chars().count(), 200);
     assert!(scene["case"]["deliveries"].is_null(), "{}", scene["case"]);
     browser.send(json!({"type": "step", "ticks": 11})).await;
-    let says = |m: &Value, words| m["text"].as_str().unwrap().contains(words);
+    let says = |m: &Value, words| m["what"]["text"].as_str().unwrap().contains(words);
     let event = browser.until("a report", |m| m["type"] == "event" && says(m, "test case: 2 inputs")).await;
     assert!(event["tick"] == 10 && says(&event, "outside the workspace"), "{event}");
 }

@@ -30,7 +30,7 @@ async fn a_comparison_runs_every_controller_while_the_session_is_paused() {
     assert_eq!(names, ["rl", "errt", "attractor"]);
     for branch in branches {
         assert_eq!(
-            (&branch["done"], &branch["phase"]),
+            (&branch["done"], &branch["phase"]["code"]),
             (&json!(true), &json!("delivered")),
             "{}",
             branch["controller"]
@@ -121,8 +121,8 @@ async fn a_switch_gives_its_reason() {
     assert_eq!((&moment["tick"], &moment["mode"]), (&json!(tick), &json!(1)));
     assert_eq!(moment["switched"], true);
     assert!(moment["error_m"].as_f64() > moment["threshold_m"].as_f64(), "{moment}");
-    let reason = moment["reason"].as_str().unwrap();
-    assert!(switch["text"].as_str().unwrap().ends_with(reason), "{switch} {reason}");
+    let reason = moment["reason"]["text"].as_str().unwrap();
+    assert!(switch["what"]["text"].as_str().unwrap().ends_with(reason), "{switch} {reason}");
     assert_eq!(moment["overlay"]["tick"], tick);
     // Any tick is answered by the control step before it; ticks that are not kept return 404.
     let (_, same) = lab.ask("GET", &format!("/api/sessions/main/moments/{}", tick + 3), "").await;

@@ -59,7 +59,7 @@ async fn a_connected_program_carries_the_bead() {
         assert!(start["parameters"]["transport_speed_m_s"].is_number());
         go_straight(program).await;
     });
-    let state = page.state("a delivery", |m| m["phase"] == "delivered").await;
+    let state = page.state("a delivery", |m| m["phase"]["code"] == "delivered").await;
     let standing = &state["program"];
     assert_eq!((&standing["name"], &standing["is_connected"]), (&json!("mine"), &json!(true)));
     // 20 cm at 4 cm/s take 5 s, and the last two centimetres are Ferry's.
@@ -68,8 +68,8 @@ async fn a_connected_program_carries_the_bead() {
     assert!(answering.await.unwrap_err().is_cancelled());
 
     page.send(json!({"type": "set_goal", "x_m": -0.1, "y_m": -0.35})).await;
-    let state = page.state("a hold", |m| m["refusal"].is_string()).await;
-    assert_eq!(state["refusal"], "the program: mine is not connected");
+    let state = page.state("a hold", |m| m["refusal"].is_object()).await;
+    assert_eq!(state["refusal"]["text"], "the program: mine is not connected");
     let (_, listed) = laboratory.ask("GET", "/api/controllers", "").await;
     assert_eq!(listed["programs"][0]["is_connected"], false);
     // Under the same name it goes on.
@@ -84,7 +84,7 @@ async fn the_arm_holds_when_a_program_is_slow_or_wrong() {
     let mut program = connect(&laboratory, "mine").await;
     let mut page = open_page(&laboratory).await;
     let refused = async |page: &mut Browser, text: &str| {
-        let fits = |m: &Value| m["refusal"].as_str().is_some_and(|refusal| refusal.contains(text));
+        let fits = |m: &Value| m["refusal"]["text"].as_str().is_some_and(|refusal| refusal.contains(text));
         page.state(text, fits).await
     };
     refused(&mut page, "the program: mine gave no answer within 100 ms").await;
@@ -117,7 +117,7 @@ async fn the_arm_holds_when_a_program_is_slow_or_wrong() {
     tokio::time::sleep(Duration::from_millis(400)).await;
     page.send(json!({"type": "select_controller", "controller": "errt"})).await;
     page.send(json!({"type": "run"})).await;
-    page.state("a delivery by ERRT", |m| m["phase"] == "delivered").await;
+    page.state("a delivery by ERRT", |m| m["phase"]["code"] == "delivered").await;
     laboratory.close().await;
 }
 
@@ -162,7 +162,7 @@ async fn a_program_is_evaluated_and_compared_beside_ferrys_controllers() {
     let ended = page.until("the comparison", |m| m["type"] == "comparison" && m["running"] == false).await;
     assert_eq!(ended["failed"], Value::Null);
     let branches: Vec<_> =
-        ended["branches"].as_array().unwrap().iter().map(|one| (&one["program"], &one["phase"])).collect();
+        ended["branches"].as_array().unwrap().iter().map(|one| (&one["program"], &one["phase"]["code"])).collect();
     assert_eq!(branches, [(&Value::Null, &json!("delivered")), (&json!("mine"), &json!("delivered"))]);
 
     // An evaluation whose program leaves fails, and says so.
@@ -252,12 +252,12 @@ async fn a_hundred_thousand_damaged_messages_do_no_harm() {
         refused += one.await.unwrap();
     }
     assert!(refused > PROGRAMS * EACH / 2, "{refused}");
-    let is_held = |m: &Value| m["refusal"] == "the program: mine is not connected";
+    let is_held = |m: &Value| m["refusal"]["text"] == "the program: mine is not connected";
     assert_eq!(page.state("a hold", is_held).await["running"], true);
     // The session goes on with a program that answers well.
     page.send(json!({"type": "set_speed", "factor": 4})).await;
     let answering = tokio::spawn(go_straight(connect(&laboratory, "mine").await));
-    page.state("a delivery", |m| m["phase"] == "delivered").await;
+    page.state("a delivery", |m| m["phase"]["code"] == "delivered").await;
     answering.abort();
     laboratory.close().await;
 }

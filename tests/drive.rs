@@ -82,7 +82,7 @@ fn apart(one: &[f64; 6], other: &[f64; 6]) -> f64 {
 }
 
 fn text(message: &Value) -> &str {
-    message["text"].as_str().unwrap_or_default()
+    message["what"]["text"].as_str().unwrap_or_default()
 }
 
 /// The newest state: what has come before is read first.
@@ -240,7 +240,7 @@ async fn ferry_delivers_with_a_robot_over_the_wire() {
             // A busy machine may be late, and the robot then stops. The operator presses again.
             let has_stopped = stopping();
             let is_over =
-                |m: &Value| m["deliveries"] == 1 || m["phase"].as_str().is_some_and(|phase| phase.contains("stopped"));
+                |m: &Value| m["deliveries"] == 1 || m["phase"]["code"] == "stopped";
             let end = hold_until(&mut page, "a delivery", Duration::from_secs(300), |m| {
                 m["type"] == "state" && (has_stopped(m) || is_over(m)) || m["type"] == "error"
             })
@@ -252,7 +252,7 @@ async fn ferry_delivers_with_a_robot_over_the_wire() {
                 assert!(stops <= 20 * wanted, "the robot stops again and again");
                 continue;
             }
-            eprintln!("seed {seed}: {} after {:.1} s, {}", end["phase"], number(&end["sim_time_s"]), end["refusal"]);
+            eprintln!("seed {seed}: {} after {:.1} s, {}", end["phase"]["text"], number(&end["sim_time_s"]), end["refusal"]["text"]);
             delivered += usize::from(end["deliveries"] == 1);
             break;
         }

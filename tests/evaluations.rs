@@ -108,7 +108,7 @@ async fn a_failed_trial_fails_again_in_a_session() {
         .await;
     browser.send(json!({"type": "set_speed", "factor": 64})).await;
     browser.send(json!({"type": "run"})).await;
-    let end = browser.state("the same end", |m| m["phase"] == failure["outcome"]).await;
+    let end = browser.state("the same end", |m| m["phase"]["text"] == failure["outcome"]).await;
     assert_eq!((&end["steps"], &end["disturbances"]), (&failure["steps"], &failure["disturbances"]), "{failure}");
     lab.close().await;
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use ferry_camera::Camera;
+use ferry_core::control::Refusal;
 use ferry_core::geometry::Point2;
 use ferry_core::image::ImageSource;
 use ferry_core::policy::Shipped;

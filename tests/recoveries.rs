@@ -76,7 +76,7 @@ async fn a_trial_of_a_live_moment_is_set_up_and_saved_exactly() {
             browser.state("the moment again", |m| m["tick"] == 250 && m["controller"] == controller).await;
             browser.send(json!({"type": "step", "ticks": trial["tick"].as_u64().unwrap() - 250})).await;
             let end = browser.state("the end", |m| m["tick"] == trial["tick"]).await;
-            assert_eq!((&end["world_hash"], &end["phase"]), (&trial["world_hash"], &trial["phase"]), "{trial}");
+            assert_eq!((&end["world_hash"], &end["phase"]["text"]), (&trial["world_hash"], &trial["phase"]), "{trial}");
 
             let path = format!("/api/recoveries/{id}/cells/{cell}/{controller}/{repeat}/case.json");
             let (status, case) = lab.ask("GET", &path, "").await;

@@ -148,8 +148,8 @@ async fn an_uploaded_policy_is_found_by_its_hash_until_it_is_deleted() {
     browser.state("steps", |m| m["steps"].as_u64() > Some(2)).await;
 
     assert_eq!(lab.ask("DELETE", "/api/policies/second", "").await.0, 204);
-    let held = browser.state("the arm holds", |m| m["refusal"].is_string()).await;
-    assert!(held["refusal"].as_str().unwrap().contains("second@"), "{held}");
+    let held = browser.state("the arm holds", |m| m["refusal"].is_object()).await;
+    assert!(held["refusal"]["text"].as_str().unwrap().contains("second@"), "{held}");
     browser.send(scenario).await;
     let refused = browser.error().await;
     assert_eq!((&refused["code"], &refused["field"]), (&json!("unknown_policy"), &json!("rl_policy")), "{refused}");

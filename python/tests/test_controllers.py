@@ -110,7 +110,7 @@ def test_a_controller_delivers(address: str) -> None:
     controller = Straight()
     with opened(address) as page, served(controller, address, "straight"):
         page.carry("straight")
-        state = page.state(lambda state: state["phase"] == "delivered")
+        state = page.state(lambda state: state["phase"]["code"] == "delivered")
     # A busy machine may be late now and then.
     assert state["program"]["answers"] >= 17 and state["program"]["missed"] <= 5
     assert controller.legs[0].map == "open" and controller.legs[0].parameters["transport_speed_m_s"] == 0.04
@@ -193,7 +193,7 @@ def test_the_rule_of_the_example_carries_through_posts(address: str, tmp_path: P
     try:
         with opened(address) as page:
             page.carry("rule", "posts", info["tool_m"], info["goal_m"])
-            page.state(lambda state: state["phase"] == "delivered")
+            page.state(lambda state: state["phase"]["code"] == "delivered")
     finally:
         running.kill()
         running.wait()

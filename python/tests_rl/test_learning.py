@@ -32,7 +32,7 @@ NAMES = ["ferry/Lattice-v0", "ferry/Maze-v0"]
 HELD_OUT_SEED = 1_000_000
 LIVE_SEED = 2_000_000
 SPEED = 8
-OVER = ("delivered", "lifted off", "stopped")
+OVER = ("delivered", "lifted_off", "stopped")
 
 
 def wilson(successes: int, trials: int) -> tuple[float, float]:
@@ -231,14 +231,14 @@ def carried(page: Page, name: str, start_m: np.ndarray, goal_m: np.ndarray) -> d
     page.state(
         lambda state: (
             is_at(state["goal_m"], goal_m)
-            and not state["phase"].startswith(OVER)
+            and not state["phase"]["code"] in OVER
             and state["program"] is not None
             and state["program"]["name"] == name
             and state["program"]["is_connected"]
         )
     )
     page.send(type="run")
-    return page.state(lambda state: is_at(state["goal_m"], goal_m) and state["phase"].startswith(OVER), 180)
+    return page.state(lambda state: is_at(state["goal_m"], goal_m) and state["phase"]["code"] in OVER, 180)
 
 
 def delivered(address: str, name: str, trials: int) -> int:  # noqa: F811
@@ -248,10 +248,10 @@ def delivered(address: str, name: str, trials: int) -> int:  # noqa: F811
         for seed in range(LIVE_SEED, LIVE_SEED + trials):
             _, info = env.reset(seed=seed)
             state = carried(page, name, info["tool_m"], info["goal_m"])
-            count += state["phase"] == "delivered"
+            count += state["phase"]["code"] == "delivered"
             simulated_s += state["sim_time_s"]
-            if state["phase"] != "delivered":
-                print(f"\nseed {seed}: {state['phase']}, {state['refusal'] or state['trouble']}", end="")
+            if state["phase"]["code"] != "delivered":
+                print(f"\nseed {seed}: {state['phase']['text']}, {(state['refusal'] or state['trouble'] or {}).get('text')}", end="")
     program = state["program"]
     took_s = time.monotonic() - began
     low, high = wilson(count, trials)

@@ -5,7 +5,6 @@ use serde_json::{Map, Value};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::ErrorMessage;
 use crate::session::CommandError;
 use ferry_core::session::RefusalCode;
 
@@ -39,6 +38,21 @@ pub struct RefusedMessage {
     pub detail: String,
 }
 
+/// See `ServerMessage::Error`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct SessionError {
+    pub code: RefusalCode,
+    /// For people: names the field and the value.
+    pub message: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub field: Option<String>,
+    /// What was refused, by name.
+    #[ts(type = "Record<string, unknown>")]
+    #[schema(value_type = Object)]
+    pub values: Map<String, Value>,
+}
+
 /// Why a message was refused.
 #[derive(Clone, Debug)]
 pub struct Refusal {
@@ -60,9 +74,9 @@ impl Refusal {
     }
 }
 
-impl From<Refusal> for ErrorMessage {
-    fn from(Refusal { code, field, detail, .. }: Refusal) -> Self {
-        Self { code: code.to_string(), message: detail, field }
+impl From<Refusal> for SessionError {
+    fn from(Refusal { code, field, values, detail: message }: Refusal) -> Self {
+        Self { code, message, field, values }
     }
 }
 

@@ -6,8 +6,8 @@ use utoipa::ToSchema;
 
 use super::lumen::wave_m;
 use super::{
-    AttemptStanding, ComparisonMessage, DoneMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding,
-    RefusedMessage, SeenMessage,
+    AttemptStanding, ComparisonMessage, DoneMessage, EventMessage, OverlayMessage, ProgramStanding, RefusedMessage,
+    SeenMessage, SessionError,
 };
 use crate::session::View;
 use ferry_core::control::switching::Reason;
@@ -59,7 +59,7 @@ pub enum ServerMessage {
     /// A message with an `id` was refused; nothing changed.
     Refused(RefusedMessage),
     /// A message without an `id` was refused; nothing changed.
-    Error(ErrorMessage),
+    Error(SessionError),
 }
 
 /// See `ServerMessage::Hello`.

@@ -144,7 +144,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 Hello,
                 EventKind,
                 EventMessage,
-                ErrorMessage,
+                SessionError,
                 DoneMessage,
                 RefusedMessage
             ],

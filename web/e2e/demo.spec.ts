@@ -20,14 +20,17 @@ const FIRST = 'A magnet carries a bead through a maze.';
 const CAPTIONS: readonly (readonly [string, (state: StateMessage) => boolean])[] = [
   [
     'RL: a neural network steers. It sees only the camera picture.',
-    ({ phase, leg_steps }) => phase === 'transporting' && leg_steps >= 18,
+    ({ phase, leg_steps }) => phase.code === 'transporting' && leg_steps >= 18,
   ],
   ['Watch: the bead will be pulled away.', ({ leg_steps }) => leg_steps >= 52],
   [
     'The bead is pulled away. The arm flies straight to it.',
     ({ disturbances }) => disturbances === 1,
   ],
-  ['Fetched. It carries on.', ({ phase, leg_steps }) => phase === 'transporting' && leg_steps < 60],
+  [
+    'Fetched. It carries on.',
+    ({ phase, leg_steps }) => phase.code === 'transporting' && leg_steps < 60,
+  ],
   ['Delivered.', ({ deliveries }) => deliveries === 1],
 ];
 const VISITED = /^(You are in control|The bead is lost|Delivered\. Touch)/;

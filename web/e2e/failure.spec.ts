@@ -16,7 +16,7 @@ const cardOf = (lab: Lab) => lab.page.getByRole('status', { name: 'Not delivered
 async function fail(openLab: (options: { url: string }) => Promise<Lab>, session: Session) {
   const lab = await openLab({ url: session.url + STUCK });
   await until('the experiment', () => lab.scene.parameters.attractor_law === 'literal');
-  await lab.stepUntil('the stop', () => lab.state.phase.startsWith('stopped'));
+  await lab.stepUntil('the stop', () => lab.state.phase.code === 'stopped');
   await expect(cardOf(lab).locator('p')).toHaveText(CAUSE);
   return lab;
 }

@@ -78,7 +78,10 @@ test('a program appears, carries the bead, and is missed when it is gone', async
     'straight is not connected: the arm holds until it is.',
   );
   await lab.step(SECOND_TICKS);
-  await until('the refusal', () => lab.state.refusal === 'the program: straight is not connected');
+  await until(
+    'the refusal',
+    () => lab.state.refusal?.text === 'the program: straight is not connected',
+  );
   // It stays in the list while it is selected.
   await expect(program).toBeChecked();
   await lab.page.getByRole('radio', { name: 'ERRT' }).check();

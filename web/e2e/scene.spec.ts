@@ -32,7 +32,7 @@ test('places a goal in the 3-D view', async ({ lab }) => {
   expect(distance(set, goal)).toBeLessThan(0.002);
   await lab.stepUntil(
     'a carried bead',
-    () => lab.state.phase === 'transporting',
+    () => lab.state.phase.code === 'transporting',
     CONTROL_STEP_TICKS,
   );
 });

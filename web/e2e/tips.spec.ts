@@ -19,7 +19,7 @@ test('opens on a goal in the colon, with a tip', async ({ page, watch }) => {
     expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
     expect(await violations(page)).toEqual([]);
     await lab.run();
-    await until('transport', () => lab.state.phase === 'transporting');
+    await until('transport', () => lab.state.phase.code === 'transporting');
     await page.goto('about:blank');
   } finally {
     await server.stop();

@@ -9,6 +9,7 @@ const SRC = import.meta.dirname;
 const FLOORS: readonly (readonly string[])[] = [
   ['styles'],
   ['ui', 'net'],
+  ['words'],
   ['lab'],
   ['plan'],
   ['scene'],

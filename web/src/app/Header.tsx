@@ -9,14 +9,13 @@ import { PlaceNotice } from '../lab/PlaceNotice';
 import { isLedFromOutside } from '../lab/outside';
 import type { Lab, Notices, Session } from '../lab/slices';
 import { takeControl } from '../lab/takeControl';
+import type { PhaseFact } from '../net/protocol.gen';
+import { phaseName, phaseWords } from '../words/facts';
 import { TERMS } from '../lab/terms';
 import './Header.css';
 
-/** Without the reason of a stop, which is longer than the place. */
-const phaseName = (phase = '–'): string => phase.replace(/:.*/, '');
-
-function phaseHelp(phase: string | undefined): string | undefined {
-  return phase === 'holding' ? TERMS.holding : phase && `${phase}. ${TERMS.phase}`;
+function phaseHelp(phase: PhaseFact): string {
+  return phase.code === 'holding' ? TERMS.holding : `${phaseWords(phase)}. ${TERMS.phase}`;
 }
 
 function Counter(props: { label: string; testid: string; value: number | undefined }): JSX.Element {
@@ -125,14 +124,18 @@ export function Header(props: HeaderProps): JSX.Element {
         <span class="mode-badge number" data-testid="mode">
           {mode() ?? '–'}
         </span>
-        <span
-          class="phase"
-          data-testid="phase"
-          data-phase={lab.state()?.phase}
-          title={phaseHelp(lab.state()?.phase)}
-        >
-          {phaseName(lab.state()?.phase)}
-        </span>
+        <Show when={lab.state()?.phase}>
+          {(phase) => (
+            <span
+              class="phase"
+              data-testid="phase"
+              data-phase={phase().code}
+              title={phaseHelp(phase())}
+            >
+              {phaseName(phase())}
+            </span>
+          )}
+        </Show>
       </div>
       <dl class="counters">
         <Counter label="delivered" testid="deliveries" value={lab.state()?.deliveries} />

@@ -1,6 +1,7 @@
 // The whole page: roles, keys, announcements, dropped files.
 
 import { expect, it } from 'vitest';
+import { eventAt } from '../lab/testingFacts';
 import { page, userEvent } from 'vitest/browser';
 import { fakeServer, show, type FakeServer } from '../lab/testingLab';
 import type { MapReport } from '../net/protocol.gen';
@@ -97,7 +98,7 @@ it('shows why a goal is refused, and sends none beside the table', async () => {
   await canvas.click({ position: { x: width / 2, y: height / 2 } });
   await expect.poll(() => server.command('set_goal')).toBeDefined();
   server.refuse('in_wall', 'The goal is in a wall.');
-  await expect.poll(() => notice('workspace')?.textContent).toContain('The goal is in a wall.');
+  await expect.poll(() => notice('workspace')?.textContent).toContain('is in a wall');
   const before = server.sent.length;
   await canvas.click({ position: { x: width / 2, y: 2 } });
   expect(server.sent.length).toBe(before);
@@ -185,8 +186,8 @@ it('announces events and roles one at a time', async () => {
     subtree: true,
   });
   for (let tick = 1; tick <= 3; tick++) {
-    const text = 'a kick of 0.80 mN·s';
-    server.tell({ type: 'event', tick, sim_time_s: tick / 125, kind: 'disturbance', text });
+    const kick = { code: 'kicked', impulse_n_s: 0.0008 } as const;
+    server.tell({ type: 'event', ...eventAt(tick, 'disturbance', kick) });
   }
   await expect.poll(() => said.at(-1)?.[1]).toContain('a kick of 0.80 mN·s');
   server.hello({ role: 'viewer' });

@@ -16,7 +16,13 @@ it('gives each command its own answer', async () => {
   const goal = commands.send('workspace', { type: 'set_goal', x_m: 9, y_m: 0 });
   expect(sent.map(({ id }) => id)).toEqual([1, 2]);
   expect(commands.placeOf(2)).toBe('workspace');
-  const refusal = { id: 2, code: 'off_table', field: 'x_m', values: { x_m: 9 }, detail: 'No.' };
+  const refusal = {
+    id: 2,
+    code: 'outside_workspace',
+    field: 'x_m',
+    values: { x_m: 9 },
+    detail: 'No.',
+  } as const;
   commands.answer({ type: 'refused', ...refusal });
   commands.answer({ type: 'done', id: 1, trial: 4 });
   expect(await run).toEqual({ kind: 'done', trial: 4 });

@@ -30,8 +30,8 @@ test('the explanation of a sub-controller names its inputs', () => {
   expect(whatItSaw(carrying)).toContain('Attractor sensed 0 obstacles in the image.');
   expect(whatItSaw(carrying)).toContain('The goal was 30.0 cm away.');
   expect(whatItSaw({ ...carrying, controller: 'errt' })).toContain('had no path yet');
-  expect(whatItSaw({ ...carrying, refusal: 'a wall is in the way' })).toMatch(
-    /did not move: A wall .*\.$/,
+  expect(whatItSaw({ ...carrying, refusal: { code: 'closed', text: '' } })).toMatch(
+    /did not move: A segment .*\.$/,
   );
 });
 

@@ -2,6 +2,7 @@
 
 import { ACTIONS } from './actions';
 import { centimetres, clock, counted, fixed, millimetres } from '../ui/format';
+import { holdWords, place } from '../words/facts';
 import { CONTROLLER_LABELS } from './parameters';
 import type { EventKind, EventMessage, MomentMessage } from '../net/protocol.gen';
 import { distance } from './geometry';
@@ -37,7 +38,7 @@ export const SYMBOL_LEGEND = EVENT_SYMBOLS.map(
 
 /** Whether two messages are about the same event: the server sends events again. */
 export const isSameEvent = (a: EventMessage, b: EventMessage): boolean =>
-  a.tick === b.tick && a.kind === b.kind && a.text === b.text;
+  a.tick === b.tick && a.kind === b.kind && JSON.stringify(a.what) === JSON.stringify(b.what);
 
 export function eventTitle(event: Pick<EventMessage, 'kind' | 'sim_time_s'>): string {
   return `${TITLES[event.kind]} at ${clock(event.sim_time_s)}`;
@@ -70,9 +71,6 @@ export function marginOf(moment: MomentMessage): Margin {
   };
 }
 
-const place = ([x_m, y_m]: readonly [number, number]): string =>
-  `(${fixed(x_m, 3)}, ${fixed(y_m, 3)}) m`;
-
 function transport(moment: MomentMessage): string {
   const { overlay, controller } = moment;
   const name = CONTROLLER_LABELS[controller];
@@ -91,11 +89,11 @@ function transport(moment: MomentMessage): string {
       return `${name} followed the shortest path around the obstacles seen so far.`;
     case 'you':
       return overlay.target_m
-        ? `Your hand led the tool to ${place(overlay.target_m)}.`
+        ? `Your hand led the tool to ${place(...overlay.target_m)}.`
         : 'Your hand did not move the tool.';
     case 'program':
       return overlay.target_m
-        ? `The program sent the tool to ${place(overlay.target_m)}.`
+        ? `The program sent the tool to ${place(...overlay.target_m)}.`
         : 'The program did not move the tool.';
     case 'robot':
       return 'A robot client commanded the joints.';
@@ -111,7 +109,7 @@ function transport(moment: MomentMessage): string {
 /** The inputs of the active sub-controller as sentences. */
 export function whatItSaw(moment: MomentMessage): string {
   const tracker = millimetres(distance(moment.bead_tracked_m, moment.bead_m), 1);
-  const bead = `The tracker reported the bead at ${place(moment.bead_tracked_m)}, ${tracker} from its true position.`;
+  const bead = `The tracker reported the bead at ${place(...moment.bead_tracked_m)}, ${tracker} from its true position.`;
   const parts = [bead];
   if (moment.mode === 1) {
     parts.push('Sub-controller 1 flies to the bead and does not use the camera.');
@@ -121,6 +119,7 @@ export function whatItSaw(moment: MomentMessage): string {
     const left = centimetres(distance(moment.tool_m, moment.goal_m));
     parts.push(transport(moment), `The goal was ${left} away.`);
   }
-  if (moment.refusal !== null) parts.push(`The arm did not move: ${sentence(moment.refusal)}`);
+  if (moment.refusal !== null)
+    parts.push(`The arm did not move: ${sentence(holdWords(moment.refusal))}`);
   return parts.join(' ');
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import type { MomentMessage } from '../net/protocol.gen';
+import type { MomentMessage, PhaseFact, TroubleFact } from '../net/protocol.gen';
 import {
   adviceOf,
   type Attempt,
@@ -11,16 +11,19 @@ import {
   isFailure,
   needsReset,
 } from './failure';
+import { phaseWords, troubleWords } from '../words/facts';
 import { stateAt } from './testing';
+import { eventAt, phaseOf, stoppedBy } from './testingFacts';
 
-const LEG = 'stopped: 150 steps without reaching the goal';
-const GOAL = 'stopped: 600 steps without delivering';
-const REACHED = 'stopped: reached, but the bead did not follow within 5 s';
-const WALLED_OFF = 'stopped: the goal is walled off';
+const LEG = stoppedBy('leg_steps', 150);
+const GOAL = stoppedBy('goal_steps', 600);
+const REACHED = stoppedBy('settle');
+const WALLED_OFF = stoppedBy('walled_off');
+const LIFTED_OFF = phaseOf('lifted_off');
 const LOOP: Attempt = {
   controller: 'rl',
   end: LEG,
-  trouble: 'going to and fro without getting nearer',
+  trouble: { code: 'circling' },
   map: 'colon-folds',
   trainedOn: ['colon'],
 };
@@ -39,9 +42,7 @@ describe('the cause of a failure', () => {
   });
 
   it('is the magnet after a lift-off', () => {
-    expect(causeOf({ ...LOOP, end: 'lifted off' })).toBe(
-      'The magnet lifted the bead off the table.',
-    );
+    expect(causeOf({ ...LOOP, end: LIFTED_OFF })).toBe('The magnet lifted the bead off the table.');
   });
 
   it('is not the controller if the bead did not follow', () => {
@@ -51,15 +52,11 @@ describe('the cause of a failure', () => {
   });
 });
 
-/** Every trouble of `server/core/control/transport.rs`, and none. */
-const TROUBLES: readonly [string | null, string][] = [
-  ['stuck where the flow ends before the goal', 'is stuck where the flow ends before the goal.'],
-  ['going to and fro without getting nearer', 'is going to and fro without getting nearer.'],
-  ['too near a wall to go on', 'is too near a wall to go on.'],
-  ['blocked: each step is refused', 'is blocked: each step is refused.'],
-  ['no path found yet', 'has found no path yet.'],
-  ['walled off', 'found no path: the goal is walled off.'],
-  [null, ''],
+const TROUBLES: readonly (TroubleFact | null)[] = [
+  { code: 'saddle' },
+  { code: 'circling' },
+  { code: 'walled_off' },
+  null,
 ];
 const CONTROLLERS = [
   ['rl', 'RL'],
@@ -68,14 +65,16 @@ const CONTROLLERS = [
 ] as const;
 
 describe.each(CONTROLLERS)('%s fails', (controller, name) => {
-  describe.each(TROUBLES)('with the trouble “%s”', (trouble, words) => {
-    const attempt = (end: string): Attempt => ({ controller, end, trouble, map: 'colon' });
+  describe.each(TROUBLES)('with the trouble %j', (trouble) => {
+    const attempt = (end: PhaseFact): Attempt => ({ controller, end, trouble, map: 'colon' });
 
     it.each([
       [LEG, 150],
       [GOAL, 600],
-    ])('at the limit “%s”', (end, steps) => {
-      const cause = trouble === null ? `${name} ${end}.` : `${name} ${words} It ${end}.`;
+    ])('at the limit %j', (end, steps) => {
+      const words = phaseWords(end);
+      const cause =
+        trouble === null ? `${name} ${words}.` : `${troubleWords(name, trouble)} It ${words}.`;
       expect(causeOf(attempt(end))).toBe(cause);
       expect(furtherSteps(attempt(end))).toBe(steps);
       expect(betterController(attempt(end))).toBe(controller === 'errt' ? undefined : 'errt');
@@ -92,13 +91,13 @@ describe.each(CONTROLLERS)('%s fails', (controller, name) => {
       ],
       [WALLED_OFF, `${name} found no path: the goal is walled off.`, 'Choose another goal.', false],
       [
-        'stopped: the tracker was lost for too long',
+        stoppedBy('tracker_lost'),
         'The tracker was lost for too long.',
         'Choose another goal when the tracker reports the bead again.',
         false,
       ],
-      ['lifted off', 'The magnet lifted the bead off the table.', undefined, true],
-    ])('with the end “%s”', (end, cause, advice, reset) => {
+      [LIFTED_OFF, 'The magnet lifted the bead off the table.', undefined, true],
+    ])('with the end %j', (end, cause, advice, reset) => {
       expect(causeOf(attempt(end))).toBe(cause);
       expect(furtherSteps(attempt(end)), 'further steps would only repeat it').toBeUndefined();
       expect(betterController(attempt(end))).toBeUndefined();
@@ -115,14 +114,14 @@ describe('a failed attempt', () => {
     goal_m: [0.1, -0.3, 0],
     steps: 150,
     controller: 'attractor',
-    trouble: 'too near a wall to go on',
+    trouble: { code: 'inside_obstacle', text: '' },
   });
   const first = failedAttempt(undefined, end, scene, undefined);
 
   it('stays as it was when the controller changes', () => {
     const changed = { ...end, controller: 'rl', trouble: null } as const;
     expect(failedAttempt(first, changed, scene, undefined)).toEqual(first);
-    expect(first).toMatchObject({ controller: 'attractor', trouble: 'too near a wall to go on' });
+    expect(first).toMatchObject({ controller: 'attractor', trouble: { code: 'inside_obstacle' } });
   });
 
   it('learns on what the policy was trained when that comes later, but only once', () => {
@@ -146,27 +145,29 @@ describe('a failed attempt', () => {
   it('is over when the bead moves on or the goal is removed', () => {
     const after = (change: object): unknown =>
       failedAttempt(first, { ...end, ...change }, scene, undefined);
-    expect(after({ phase: 'transporting' })).toBeUndefined();
+    expect(after({ phase: phaseOf('transporting') })).toBeUndefined();
     expect(after({ goal_m: null })).toBeUndefined();
-    expect(after({ goal_m: null, phase: 'lifted off' })).toBeDefined();
+    expect(after({ goal_m: null, phase: LIFTED_OFF })).toBeDefined();
   });
 });
 
 it('an event that ends an attempt tells its cause', () => {
   const overlay = { judgement: { trained_on: ['colon'] } } as MomentMessage['overlay'];
-  const moment = { controller: 'rl', trouble: LOOP.trouble, overlay } as const;
-  const stopped = { kind: 'stopped', text: LOOP.end } as const;
-  expect(causeOfEvent(stopped, moment, LOOP.map)).toBe(causeOf(LOOP));
-  const lifted = { kind: 'lift_off', text: 'lift-off: the bead jumped to the magnet' } as const;
+  const trouble = { code: 'circling', text: '' } as const;
+  const moment = { controller: 'rl', trouble, overlay } as const;
+  const what = { code: 'stopped', phase: LEG, text: '' } as const;
+  expect(causeOfEvent({ what }, moment, LOOP.map)).toBe(causeOf(LOOP));
+  const lifted = eventAt(1, 'lift_off', { code: 'lifted_off' });
   expect(causeOfEvent(lifted, moment, 'colon')).toContain('magnet');
-  expect(causeOfEvent({ kind: 'reached', text: 'reached' }, moment, 'colon')).toBeUndefined();
+  const reached = eventAt(1, 'reached', { code: 'reached' });
+  expect(causeOfEvent(reached, moment, 'colon')).toBeUndefined();
 });
 
 it.each([
-  ['delivered', false],
-  ['transporting', false],
-  ['lifted off', true],
+  [phaseOf('delivered'), false],
+  [phaseOf('transporting'), false],
+  [LIFTED_OFF, true],
   [WALLED_OFF, true],
-])('“%s” is a failure: %s', (phase, failed) => {
+])('%j is a failure: %s', (phase, failed) => {
   expect(isFailure(phase)).toBe(failed);
 });

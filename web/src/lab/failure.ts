@@ -1,20 +1,23 @@
 // Why a goal was not reached, in plain words, and what can help. Pure.
 
+import { phaseWords, troubleWords } from '../words/facts';
 import { CONTROLLER_LABELS } from './parameters';
 import type {
   ControllerName,
   EventMessage,
   MomentMessage,
+  PhaseFact,
   SceneMessage,
   StateMessage,
+  TroubleFact,
 } from '../net/protocol.gen';
 
 export interface Attempt {
   readonly controller: ControllerName;
-  /** The phase or the outcome, such as `stopped: 150 steps without reaching the goal`. */
-  readonly end: string;
+  /** The phase that ended it. */
+  readonly end: PhaseFact;
   /** What kept the controller from the goal. */
-  readonly trouble: string | null;
+  readonly trouble: TroubleFact | null;
   readonly map: string;
   /** Maps that the policy was trained on; undefined if they are unknown. */
   readonly trainedOn?: readonly string[] | undefined;
@@ -26,16 +29,9 @@ export interface Failed extends Attempt {
   readonly key: string;
 }
 
-const LIFTED_OFF = 'lifted off';
-const REACHED = 'stopped: reached';
-const TRACKER_LOST = 'stopped: the tracker was lost for too long';
-const WALLED_OFF = 'stopped: the goal is walled off';
-const STEP_LIMIT = /^stopped: (\d+) steps/;
-
 /** Whether a phase ends an attempt without a delivery. */
-export function isFailure(phase: string): boolean {
-  return phase === LIFTED_OFF || phase.startsWith('stopped');
-}
+export const isFailure = ({ code }: Pick<PhaseFact, 'code'>): boolean =>
+  code === 'lifted_off' || code === 'stopped';
 
 /** The failed attempt of a state; undefined if none has failed. `before` is that of the last state. */
 export function failedAttempt(
@@ -46,8 +42,8 @@ export function failedAttempt(
 ): Failed | undefined {
   const { phase: end, goal_m, steps, controller, trouble } = state;
   // While paused, the phase stays after the goal was removed.
-  if (!isFailure(end) || (!goal_m && end !== LIFTED_OFF)) return undefined;
-  const key = [trial, goal_m?.join(), steps, end].join(' ');
+  if (!isFailure(end) || (!goal_m && end.code !== 'lifted_off')) return undefined;
+  const key = [trial, goal_m?.join(), steps, phaseWords(end)].join(' ');
   if (before?.key !== key) return { key, controller, end, trouble, map, trainedOn };
   // On a new page the policy comes after the state.
   return { ...before, trainedOn: before.trainedOn ?? trainedOn };
@@ -58,44 +54,47 @@ function isForeign({ controller, map, trainedOn }: Attempt): boolean {
   return controller === 'rl' && trainedOn !== undefined && !trainedOn.includes(map);
 }
 
-/** What keeps a controller from the goal, as a sentence. */
-export function troubleWords(name: string, trouble: string): string {
-  if (trouble === 'no path found yet') return `${name} has found no path yet.`;
-  if (trouble === 'walled off') return `${name} found no path: the goal is walled off.`;
-  return `${name} is ${trouble}.`;
-}
-
 /** The cause in one to three sentences. */
 export function causeOf(attempt: Attempt): string {
   const { controller, end, trouble } = attempt;
   const name = CONTROLLER_LABELS[controller];
-  if (end === LIFTED_OFF) return 'The magnet lifted the bead off the table.';
-  // What troubled the controller before is over.
-  if (end.startsWith(REACHED)) return `${end.replace(REACHED, 'The tool reached the goal')}.`;
-  if (end === WALLED_OFF) return troubleWords(name, 'walled off');
-  if (end === TRACKER_LOST) return 'The tracker was lost for too long.';
-  const sentences =
-    trouble === null ? [`${name} ${end}.`] : [troubleWords(name, trouble), `It ${end}.`];
-  if (isForeign(attempt)) sentences.push('It was not trained on this map.');
-  return sentences.join(' ');
+  if (end.code !== 'stopped') return 'The magnet lifted the bead off the table.';
+  switch (end.by) {
+    // What troubled the controller before is over.
+    case 'settle':
+      return 'The tool reached the goal, but the bead did not follow within 5 s.';
+    case 'walled_off':
+      return troubleWords(name, { code: 'walled_off' });
+    case 'tracker_lost':
+      return 'The tracker was lost for too long.';
+    case 'leg_steps':
+    case 'goal_steps': {
+      const sentences =
+        trouble === null
+          ? [`${name} ${phaseWords(end)}.`]
+          : [troubleWords(name, trouble), `It ${phaseWords(end)}.`];
+      if (isForeign(attempt)) sentences.push('It was not trained on this map.');
+      return sentences.join(' ');
+    }
+  }
 }
 
 /** The cause of an event that ended an attempt without a delivery. */
 export function causeOfEvent(
-  { kind, text }: Pick<EventMessage, 'kind' | 'text'>,
+  { what }: Pick<EventMessage, 'what'>,
   { controller, trouble, overlay }: Pick<MomentMessage, 'controller' | 'trouble' | 'overlay'>,
   map: string,
 ): string | undefined {
-  if (kind !== 'stopped' && kind !== 'lift_off') return undefined;
-  const end = kind === 'stopped' ? text : LIFTED_OFF;
-  return causeOf({ controller, end, trouble, map, trainedOn: overlay.judgement?.trained_on });
+  const lifted = { code: 'lifted_off' } as const;
+  const end =
+    what.code === 'stopped' ? what.phase : what.code === 'lifted_off' ? lifted : undefined;
+  const trainedOn = overlay.judgement?.trained_on;
+  return end && causeOf({ controller, end, trouble, map, trainedOn });
 }
 
 /** Number of control steps that the same goal gives when it is set again; undefined if they cannot help. */
-export function furtherSteps({ end }: Attempt): number | undefined {
-  const steps = STEP_LIMIT.exec(end)?.[1];
-  return steps === undefined ? undefined : Number(steps);
-}
+export const furtherSteps = ({ end }: Attempt): number | undefined =>
+  end.code === 'stopped' ? end.steps : undefined;
 
 /** Another controller to try, if there is a better one. */
 export function betterController(attempt: Attempt): ControllerName | undefined {
@@ -103,11 +102,20 @@ export function betterController(attempt: Attempt): ControllerName | undefined {
 }
 
 /** Whether only a reset can help. */
-export const needsReset = ({ end }: Attempt): boolean => end === LIFTED_OFF;
+export const needsReset = ({ end }: Attempt): boolean => end.code === 'lifted_off';
 
 /** What the operator can do in the workspace, where no button can help. */
 export function adviceOf({ end }: Attempt): string | undefined {
-  if (end.startsWith(REACHED)) return 'Choose another goal, or drag the bead to this one.';
-  if (end === TRACKER_LOST) return 'Choose another goal when the tracker reports the bead again.';
-  return end === WALLED_OFF ? 'Choose another goal.' : undefined;
+  if (end.code !== 'stopped') return undefined;
+  switch (end.by) {
+    case 'settle':
+      return 'Choose another goal, or drag the bead to this one.';
+    case 'tracker_lost':
+      return 'Choose another goal when the tracker reports the bead again.';
+    case 'walled_off':
+      return 'Choose another goal.';
+    case 'leg_steps':
+    case 'goal_steps':
+      return undefined;
+  }
 }

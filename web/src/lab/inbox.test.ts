@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { Inbox } from './inbox';
 import type { Input } from './model';
 import { sceneOf, stateAt } from './testing';
+import { eventAt } from './testingFacts';
 
 const state = (tick: number): Input => ({
   type: 'message',
@@ -43,7 +44,7 @@ describe('the inputs before a frame', () => {
   it('keep every event', () => {
     const events = [1, 2, 3].map((tick): Input => ({
       type: 'message',
-      message: { type: 'event', tick, sim_time_s: 0, kind: 'goal', text: '' },
+      message: { type: 'event', ...eventAt(tick, 'goal') },
     }));
     expect(filled(...events).take()).toHaveLength(3);
   });

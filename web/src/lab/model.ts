@@ -13,14 +13,13 @@ import {
   type ServerMessage,
   type StateMessage,
 } from '../net/protocol.gen';
-import { withoutHashes } from '../net/problem';
 import type { Notice } from '../ui/NoticeBar';
+import { eventWords } from '../words/events';
+import { refusalWords } from '../words/refusals';
 import { isSameEvent } from './eventStory';
 import type { Place } from './places';
 import { restartText } from './restart';
 
-/** Error code: the server released the bead because it received nothing from the hand. */
-const HAND_SILENT = 'hand_silent';
 /** Largest number of log lines. */
 export const LOG_LINES = 300;
 /** Largest number of marks on the timeline. */
@@ -115,8 +114,7 @@ function withNotice(model: Model, place: Place, tone: Notice['tone'], text: stri
   };
 }
 
-function withError(model: Model, place: Place, detail: string): Model {
-  const text = withoutHashes(detail);
+function withError(model: Model, place: Place, text: string): Model {
   const logged = withLine(model, 'error', text, model.state?.sim_time_s);
   return withNotice(logged, place, 'error', text);
 }
@@ -198,13 +196,7 @@ function withMessage(model: Model, message: ServerMessage): Model {
       const marked = { ...model, marks };
       // The log has the past of a run already.
       if (message.again) return marked;
-      return withLine(
-        marked,
-        message.kind,
-        withoutHashes(message.text),
-        message.sim_time_s,
-        message,
-      );
+      return withLine(marked, message.kind, eventWords(message.what), message.sim_time_s, message);
     }
     // For the page's commands.
     case 'done':
@@ -214,8 +206,12 @@ function withMessage(model: Model, message: ServerMessage): Model {
       return message.trial === model.scene?.trial ? { ...model, comparison: message } : model;
     // What a hand does has no id.
     case 'error': {
-      const silences = model.silences + (message.code === HAND_SILENT ? 1 : 0);
-      return withError({ ...model, silences }, 'workspace', message.message);
+      const silences = model.silences + (message.code === 'hand_silent' ? 1 : 0);
+      return withError(
+        { ...model, silences },
+        'workspace',
+        refusalWords({ ...message, detail: message.message }),
+      );
     }
   }
 }
@@ -230,7 +226,7 @@ export function reduce(model: Model, input: Input): Model {
     case 'sent':
       return withoutNotice(model, input.place);
     case 'refused':
-      return withError(model, input.place, input.refusal.detail);
+      return withError(model, input.place, refusalWords(input.refusal));
     case 'notice':
       return withNotice(model, input.place, 'hint', input.text);
     case 'dismiss':

@@ -12,6 +12,7 @@ import {
   type ClientMessage,
   type Hello,
   PROTOCOL_VERSION,
+  type RefusalCode,
   type SceneMessage,
   type ServerMessage,
   type StateMessage,
@@ -104,7 +105,7 @@ export class FakeServer {
     for (const id of this.open.splice(0)) this.tell({ type: 'done', id, trial });
   }
   /** Refuses the newest open command. */
-  refuse(code: string, detail: string): void {
+  refuse(code: RefusalCode, detail: string): void {
     const id = this.open.pop();
     if (id === undefined) throw new Error('no command is open');
     this.tell({ type: 'refused', id, code, values: {}, detail });

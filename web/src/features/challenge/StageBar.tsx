@@ -1,6 +1,7 @@
 // The attempt, above the map: what to do, the clock, and how it ended.
 
 import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-js';
+import { VOIDS } from '../../words/facts';
 import { CommandButton } from '../../lab/CommandButton';
 import { isOver } from '../../lab/contest';
 import type { ByHand, Contested, OpenTab, Session, Trial } from '../../lab/slices';
@@ -64,9 +65,13 @@ export function StageBar(props: {
       {(attempt) => (
         <section class="contest" aria-label="Challenge">
           <Switch>
-            <Match when={attempt().void !== null}>
-              <p role="status">This attempt does not count: {attempt().void}.</p>
-              <Again lab={lab} isPrimary />
+            <Match when={attempt().void}>
+              {(why) => (
+                <>
+                  <p role="status">This attempt does not count: {VOIDS[why().code]}.</p>
+                  <Again lab={lab} isPrimary />
+                </>
+              )}
             </Match>
             <Match when={isOver(attempt()) && lab.state()?.running}>
               <p role="status">The attempt is over. What happens now does not count.</p>
@@ -120,7 +125,7 @@ export function StageBar(props: {
                 {seconds(attempt().total_s)}
               </p>
               <p class="number">{penaltyWords(attempt(), contest.challenge())}</p>
-              <Show when={lab.state()?.phase === 'approaching'}>
+              <Show when={lab.state()?.phase.code === 'approaching'}>
                 <p>The arm fetches the bead.</p>
               </Show>
             </Match>

@@ -14,7 +14,7 @@ it('compares the chosen controllers, and shows why the server refuses it', async
     .poll(() => server.command('fork'))
     .toMatchObject({ tick: 0, controllers: ['errt', 'attractor'] });
   server.refuse('no_goal', 'no goal is set');
-  await expect.element(page.getByText('no goal is set')).toBeVisible();
+  await expect.element(page.getByText('No goal was set at that moment')).toBeVisible();
   server.hello({ role: 'viewer' });
   await expect.element(start).toBeDisabled();
 });

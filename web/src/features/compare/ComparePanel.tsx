@@ -13,6 +13,7 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { PanelProps } from '../../lab/panel';
 import type { Compared, Events, Notices, Session, Trial } from '../../lab/slices';
+import { phaseWords } from '../../words/facts';
 import { CompareStart } from './CompareStart';
 import './compare.css';
 
@@ -23,7 +24,7 @@ function outcome(comparison: ComparisonMessage, branch: Branch, tick_s: number):
     return `delivered, ${clock((branch.delivered_tick - comparison.tick) * tick_s)}`;
   }
   if (!branch.done) return comparison.running ? 'running' : 'stopped early';
-  return branch.phase;
+  return branch.phase ? phaseWords(branch.phase) : 'stopped early';
 }
 
 function Results(props: { comparison: ComparisonMessage; tick_s: number }): JSX.Element {

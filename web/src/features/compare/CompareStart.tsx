@@ -22,8 +22,8 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
   const wanted = (): ControllerName[] => offered().filter((name) => chosen().has(name));
   /** At the end of an attempt there is nothing left to compare. */
   const isOver = (): boolean => {
-    const phase = lab.state()?.phase ?? '';
-    return phase === 'delivered' || isFailure(phase);
+    const phase = lab.state()?.phase;
+    return phase !== undefined && (phase.code === 'delivered' || isFailure(phase));
   };
   /** Where the branches begin. */
   const from = (): number | undefined => (isOver() ? attemptStart(lab) : lab.state()?.tick);

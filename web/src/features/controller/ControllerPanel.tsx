@@ -1,7 +1,7 @@
 // The active controller, its reasons, and its parameters.
 
 import { For, Show, createMemo, type JSX } from 'solid-js';
-import { troubleWords } from '../../lab/failure';
+import { troubleWords } from '../../words/facts';
 import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS, policyName } from '../../lab/parameters';
 import type { ControllerName, StateMessage } from '../../net/protocol.gen';
 import { createPrograms } from '../../lab/programs';

@@ -92,12 +92,13 @@ it('shows one distance between tool and bead, that of now', async () => {
     </Show>
   ));
   const reason = page.getByTestId('reason');
-  for (const [text, shown] of [
-    ['fetching: 155 mm away, not yet within 10 mm', 'fetching: not yet within 10 mm'],
-    ['fetching: 155 mm away, but a wall is between', 'fetching, but a wall is between'],
-    ['bead lost: 155 mm away, more than T = 100 mm', 'bead lost: more than T = 100 mm'],
+  for (const [code, threshold_m, shown] of [
+    ['fetching', 0.01, 'fetching: not yet within 10 mm'],
+    ['wall_between', 0.01, 'fetching, but a wall is between'],
+    ['lost', 0.1, 'bead lost: more than T = 100 mm'],
   ] as const) {
-    server.state({ reason: text, tracked_error_m: 0.133 });
+    const why = { code, error_m: 0.155, threshold_m, text: '' };
+    server.state({ reason: why, tracked_error_m: 0.133 });
     await expect.element(reason).toHaveTextContent(new RegExp(`^${shown}$`));
   }
   await expect.element(page.getByText('13.3 cm')).toBeVisible();

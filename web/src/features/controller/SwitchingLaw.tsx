@@ -10,7 +10,7 @@ import type {
   StateMessage,
 } from '../../net/protocol.gen';
 import { TERMS } from '../../lab/terms';
-import { withoutHashes } from '../../net/problem';
+import { holdWords, reasonWords } from '../../words/facts';
 import { Fact } from '../../ui/Fact';
 import '../../ui/Fact.css';
 import './SwitchingLaw.css';
@@ -176,10 +176,6 @@ function captureText(capture_m: SceneMessage['capture_m']): string {
   return reaches.length < capture_m.length ? `${text}, some directions` : text;
 }
 
-/** Without the distance at the last control step: e, which is shown above, has changed since. */
-const withoutDistance = (reason: string): string =>
-  reason.replace(/: \d+ mm away, but/, ', but').replace(/ \d+ mm away,/, '');
-
 export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }): JSX.Element {
   return (
     <div class="switching">
@@ -205,10 +201,10 @@ export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }
         />
       </dl>
       <p class="reason" data-testid="reason">
-        {withoutDistance(props.state.reason)}
+        {reasonWords(props.state.reason)}
       </p>
       <Show when={props.state.refusal}>
-        {(refusal) => <p class="refusal">Holding: {withoutHashes(refusal())}</p>}
+        {(refusal) => <p class="refusal">Holding: {holdWords(refusal())}</p>}
       </Show>
       <p class="rule">{ruleText(props.scene.parameters)}</p>
     </div>

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { experimentFrom } from '../../lab/experimentLink';
 import { sceneOf, stateAt } from '../../lab/testing';
+import { phaseOf } from '../../lab/testingFacts';
 import type { AttemptStanding, ControllerName, StateMessage } from '../../net/protocol.gen';
 import {
   PART_MS,
@@ -43,21 +44,21 @@ describe('the programme', () => {
       place = turned(afterCue(place, cue), (now_ms += READ_MS));
       captions.push(place.caption);
     };
-    const first = { phase: 'transporting', mode: 2 };
+    const first = { phase: phaseOf('transporting'), mode: 2 };
     const pulled = { ...first, disturbances: 1 };
     for (const state of [
       // The first fetch is not one of a lost bead.
-      stateAt(1, { phase: 'approaching' }),
+      stateAt(1, { phase: phaseOf('approaching') }),
       stateAt(2, first),
       stateAt(3, { ...first, leg_steps: 18 }),
       stateAt(4, { ...first, leg_steps: 48 }),
       stateAt(5, { ...first, leg_steps: 60 }),
       // The loss is noticed later.
       stateAt(6, { ...pulled, leg_steps: 61 }),
-      stateAt(7, { phase: 'approaching', leg_steps: 61, disturbances: 1 }),
+      stateAt(7, { phase: phaseOf('approaching'), leg_steps: 61, disturbances: 1 }),
       stateAt(8, { ...pulled, leg_steps: 1 }),
       stateAt(9, { ...pulled, leg_steps: 70 }),
-      stateAt(10, { ...pulled, phase: 'delivered', deliveries: 1 }),
+      stateAt(10, { ...pulled, phase: phaseOf('delivered'), deliveries: 1 }),
     ]) {
       see(state);
     }
@@ -70,13 +71,13 @@ describe('the programme', () => {
   it('goes on after a missed cue', () => {
     const pulled = afterCue(startOf(0, 0), 2);
     const carrying = stateAt(1, {
-      phase: 'transporting',
+      phase: phaseOf('transporting'),
       mode: 2,
       leg_steps: 9,
       disturbances: 1,
     });
     expect(nextCue(pulled, carrying), 'a pull that was not carried out').toBe(3);
-    const delivered = stateAt(2, { phase: 'delivered', mode: 2, deliveries: 1 });
+    const delivered = stateAt(2, { phase: phaseOf('delivered'), mode: 2, deliveries: 1 });
     for (const place of [startOf(0, 0), pulled]) {
       const cue = nextCue(place, delivered);
       expect(cue).toBe(4);
@@ -98,17 +99,17 @@ describe('the programme', () => {
   });
 
   it('pulls no bead away that was delivered', () => {
-    const late = stateAt(1, { phase: 'settling', mode: 2, leg_steps: 90 });
+    const late = stateAt(1, { phase: phaseOf('settling'), mode: 2, leg_steps: 90 });
     expect(nextCue(startOf(0, 0), late)).toBeUndefined();
   });
 
   it.each([
     [{ hand_m: [0, 0] }, 'Pull'],
     [{ mode: 1 }, 'The bead is lost'],
-    [{ phase: 'delivered' }, 'Delivered'],
+    [{ phase: phaseOf('delivered') }, 'Delivered'],
     [{}, 'You are in control'],
   ] as const)('tells a visitor what happens: %j', (change, words) => {
-    const state = stateAt(1, { mode: 2, phase: 'transporting', hand_m: null });
+    const state = stateAt(1, { mode: 2, phase: phaseOf('transporting'), hand_m: null });
     expect(visitorCaption({ ...state, ...change } as StateMessage)).toContain(words);
   });
 

@@ -33,13 +33,13 @@ export interface Part {
 const carriesOn =
   (steps: number) =>
   ({ phase, disturbances, leg_steps }: StateMessage): boolean =>
-    disturbances > 0 && phase === 'transporting' && leg_steps < steps;
+    disturbances > 0 && phase.code === 'transporting' && leg_steps < steps;
 const isDelivered = ({ deliveries }: StateMessage): boolean => deliveries > 0;
 /** Not at the end of the transport: a bead that was delivered is not pulled away. */
 const after =
   (steps: number) =>
   ({ phase, leg_steps }: StateMessage): boolean =>
-    phase === 'transporting' && leg_steps >= steps;
+    phase.code === 'transporting' && leg_steps >= steps;
 const atSpeed = (factor: number): ClientMessage => ({ type: 'set_speed', factor });
 
 /** Slow enough to see and read what happens between the warning and the next transport. */
@@ -181,7 +181,7 @@ export const CARRIERS: Readonly<Record<ControllerName, string>> = {
 
 /** What a screen shows that only watches: another one runs the programme. */
 export function watchedCaption({ mode, phase, goal_m, controller }: StateMessage): string {
-  if (phase === 'delivered') return 'Delivered.';
+  if (phase.code === 'delivered') return 'Delivered.';
   if (mode === 1) return 'The arm flies to the bead.';
   return goal_m ? `${CARRIERS[controller]}, carries the bead to its goal.` : 'No goal is set.';
 }
@@ -190,7 +190,7 @@ export function watchedCaption({ mode, phase, goal_m, controller }: StateMessage
 export function visitorCaption({ hand_m, mode, phase }: StateMessage): string {
   if (hand_m) return 'Pull the bead far away, then let go.';
   if (mode === 1) return 'The bead is lost. The arm flies straight to it.';
-  if (phase === 'delivered') return 'Delivered. Touch a place to set another goal.';
+  if (phase.code === 'delivered') return 'Delivered. Touch a place to set another goal.';
   return 'You are in control: drag the bead, touch a place to set a goal.';
 }
 

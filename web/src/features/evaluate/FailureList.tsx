@@ -44,9 +44,7 @@ function FailureRow(props: {
     <tr>
       <th scope="row">{props.failure.index}</th>
       <td>{label()}</td>
-      <td class="failure-why">
-        <Show when={cell()}>{(now) => reason(props.failure, now())}</Show>
-      </td>
+      <td class="failure-why">{reason(props.failure)}</td>
       <td>{props.failure.steps}</td>
       <td>
         <button

@@ -36,16 +36,10 @@ describe('text of a row', () => {
     expect(cm(0.0141)).toBe('1.4');
     expect(cm(null)).toBe('–');
     expect(decisionWords(ROW)).toBe('2.3 · 7.5');
-    const cell = { controller: 'attractor', map: 'posts' } as const;
-    expect(reason(FAILURE, cell)).toBe(
-      'Attractor is following a wall. It stopped: 150 steps without reaching the goal.',
+    expect(reason({ ...FAILURE, refusal: 'a wall is ahead' })).toBe(
+      'stopped: 150 steps without reaching the goal; following a wall; a wall is ahead',
     );
-    expect(reason({ ...FAILURE, refusal: 'a wall is ahead' }, cell)).toMatch(
-      /holds: a wall is ahead\.$/,
-    );
-    expect(reason({ ...FAILURE, outcome: 'transporting', trouble: null }, cell)).toBe(
-      'transporting',
-    );
+    expect(reason({ ...FAILURE, outcome: 'transporting', trouble: null })).toBe('transporting');
   });
 });
 

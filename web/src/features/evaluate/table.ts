@@ -1,8 +1,7 @@
 // Rows as text: in the table, and in the files to download. Pure.
 
 import { fixed } from '../../ui/format';
-import { causeOf, isFailure } from '../../lab/failure';
-import type { EvaluationCell, EvaluationFailure, Row } from '../../net/protocol.gen';
+import type { EvaluationFailure, Row } from '../../net/protocol.gen';
 import { addressOf } from '../../net/base';
 
 export function percentRange([low, high]: readonly [number, number]): string {
@@ -18,16 +17,9 @@ export function decisionWords(row: Row): string {
   return `${fixed(row.decision_ms_p50, 1)} · ${fixed(row.decision_ms_p99, 1)}`;
 }
 
-/** Why a trial failed, in the words of the live session. */
-export function reason(
-  { outcome, trouble, refusal }: EvaluationFailure,
-  { controller, map }: Pick<EvaluationCell, 'controller' | 'map'>,
-): string {
-  if (!isFailure(outcome))
-    return [outcome, trouble, refusal].filter((why) => why !== null).join('; ');
-  const cause = causeOf({ controller, end: outcome, trouble, map });
-  return refusal === null ? cause : `${cause} The arm holds: ${refusal}.`;
-}
+/** Why a trial failed, in the words of its report. */
+export const reason = ({ outcome, trouble, refusal }: EvaluationFailure): string =>
+  [outcome, trouble, refusal].filter((why) => why !== null).join('; ');
 
 /** `1.043`, or a dash if no bead was delivered. */
 export function ratio(value: number | null): string {

@@ -1,6 +1,7 @@
 // The list of events, and test cases from a file.
 
 import { expect, it } from 'vitest';
+import { eventAt } from '../../lab/testingFacts';
 import { page, userEvent } from 'vitest/browser';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { fakeLab, show } from '../../lab/testingLab';
@@ -25,13 +26,7 @@ async function open() {
 it('is one stop of the Tab key', async () => {
   const { server } = await open();
   for (const tick of [1, 2, 3]) {
-    server.tell({
-      type: 'event',
-      tick,
-      sim_time_s: tick / 125,
-      kind: 'goal',
-      text: `goal ${tick}`,
-    });
+    server.tell({ type: 'event', ...eventAt(tick, 'goal') });
   }
   const events = page.getByRole('button', { name: /^Why: / });
   await expect.poll(() => events.all().length).toBe(3);
@@ -51,7 +46,7 @@ it('sends a test case, and shows why the server refuses it', async () => {
   const field = page.getByLabelText('File of the test case');
   await userEvent.upload(field, new File(['no case'], 'a.json'));
   await expect.poll(() => server.command('open_case')?.case).toBe('no case');
-  server.refuse('case_refused', 'test case: expected a value');
+  server.refuse('bad_case', 'test case: expected a value');
   const notice = page.getByRole('alert');
   await expect.element(notice).toHaveTextContent('test case: expected a value');
   await page.getByRole('button', { name: 'Dismiss' }).click();

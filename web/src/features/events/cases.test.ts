@@ -1,4 +1,5 @@
 import { expect, it } from 'vitest';
+import { eventAt } from '../../lab/testingFacts';
 import type { CaseSummary, EventMessage } from '../../net/protocol.gen';
 import { caseWords, fits } from './cases';
 
@@ -10,12 +11,7 @@ const CASE: CaseSummary = {
   by_tick: 8202,
 };
 
-const deliveredAt = (tick: number): EventMessage => ({
-  tick,
-  sim_time_s: tick * 0.008,
-  kind: 'delivered',
-  text: 'delivered',
-});
+const deliveredAt = (tick: number): EventMessage => eventAt(tick, 'delivered');
 
 const lastOf = (events: EventMessage[], tick: number) =>
   caseWords(CASE, events, { tick }, 0.008).at(-1);

@@ -1,5 +1,6 @@
 import { afterEach, expect, it, vi } from 'vitest';
 import { stateAt } from '../../lab/testing';
+import { phaseOf, stoppedBy } from '../../lab/testingFacts';
 import { caption, fileName } from './picture';
 import { record, videoEnding, videoType } from './video';
 
@@ -18,16 +19,16 @@ it('names a file by map, controller and time of the trial', () => {
 });
 
 it.each([
-  [{ phase: 'transporting' }, 'on the way'],
-  [{ phase: 'approaching' }, 'on the way'],
-  [{ phase: 'settling' }, 'goal reached'],
-  [{ phase: 'delivered' }, 'delivered'],
-  [{ phase: 'stopped: 150 steps without reaching the goal' }, 'not reached'],
-  [{ phase: 'stopped: 600 steps without delivering' }, 'not reached'],
-  [{ phase: 'stopped: the goal is walled off' }, 'not reached'],
-  [{ phase: 'stopped: reached, but the bead did not follow within 5 s' }, 'reached, not delivered'],
-  [{ phase: 'lifted off' }, 'lifted off'],
-  [{ phase: 'holding', goal_m: null }, 'no goal'],
+  [{ phase: phaseOf('transporting') }, 'on the way'],
+  [{ phase: phaseOf('approaching') }, 'on the way'],
+  [{ phase: phaseOf('settling') }, 'goal reached'],
+  [{ phase: phaseOf('delivered') }, 'delivered'],
+  [{ phase: stoppedBy('leg_steps', 150) }, 'not reached'],
+  [{ phase: stoppedBy('goal_steps', 600) }, 'not reached'],
+  [{ phase: stoppedBy('walled_off') }, 'not reached'],
+  [{ phase: stoppedBy('settle') }, 'reached, not delivered'],
+  [{ phase: phaseOf('lifted_off') }, 'lifted off'],
+  [{ phase: phaseOf('holding'), goal_m: null }, 'no goal'],
 ])('the caption of %j ends with “%s”', (change, words) => {
   expect(caption('colon', at(change))).toBe(`colon · RL · t = 12.3 s · ${words}`);
 });

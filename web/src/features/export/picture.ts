@@ -1,5 +1,6 @@
 // A picture of the view with a caption below it.
 
+import { phaseName } from '../../words/facts';
 import type { Palette } from '../../ui/palette';
 import type { ViewPicture } from '../../plan/viewPicture';
 import type { StateMessage } from '../../net/protocol.gen';
@@ -18,13 +19,13 @@ export function fileName(map: string, { controller, sim_time_s }: Moment, ending
 }
 
 function outcome({ goal_m, phase }: Moment): string {
-  if (phase === 'lifted off') return phase;
+  if (phase.code === 'lifted_off') return phaseName(phase);
   if (!goal_m) return 'no goal';
-  if (phase === 'delivered') return phase;
+  if (phase.code === 'delivered') return phaseName(phase);
   // The bead still follows.
-  if (phase === 'settling') return 'goal reached';
-  if (phase.startsWith('stopped: reached')) return 'reached, not delivered';
-  return phase.startsWith('stopped') ? 'not reached' : 'on the way';
+  if (phase.code === 'settling') return 'goal reached';
+  if (phase.code !== 'stopped') return 'on the way';
+  return phase.by === 'settle' ? 'reached, not delivered' : 'not reached';
 }
 
 export function caption(map: string, moment: Moment): string {

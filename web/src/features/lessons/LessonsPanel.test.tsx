@@ -1,4 +1,5 @@
 import { expect, it } from 'vitest';
+import { eventAt } from '../../lab/testingFacts';
 import { page } from 'vitest/browser';
 import { fakeLab, show } from '../../lab/testingLab';
 import { LessonsPanel } from './LessonsPanel';
@@ -35,7 +36,7 @@ it('counts a lesson that was read to its end, whether it is finished or left', a
   await expect.element(page.getByText('0 of 3 done')).toBeVisible();
   server.state({ tick: 1, sim_time_s: 0.008, tool_m: [0, -0.36, 0.1] });
   await expect.poll(() => lab.state()?.tick).toBe(1);
-  server.tell({ type: 'event', tick: 1250, sim_time_s: 10, kind: 'delivered', text: 'delivered' });
+  server.tell({ type: 'event', ...eventAt(1250, 'delivered') });
   server.state({ tick: 1250, sim_time_s: 10, tool_m: [0.15, -0.36, 0.1] });
   await expect.element(page.getByText('3 of 3 done')).toBeVisible();
   await button('Next').click();

@@ -1,16 +1,18 @@
 import { describe, expect, it } from 'vitest';
-import type { EventKind, EventMessage, StateMessage } from '../../net/protocol.gen';
+import type { EventKind, EventMessage, Happening, StateMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
+import { eventAt, phaseOf, stoppedBy } from '../../lab/testingFacts';
 import { startTrack, type Frame, observe, type Track } from './track';
 
 const scene = sceneOf('posts', 3);
 
-function event(time_s: number, kind: EventKind, text = ''): EventMessage {
-  return { tick: time_s / 0.008, sim_time_s: time_s, kind, text };
+function event(time_s: number, kind: EventKind, what?: Happening): EventMessage {
+  return eventAt(time_s / 0.008, kind, what);
 }
 
-const LOST = 'sub-controller 1 takes over: bead lost';
-const FETCHED = 'sub-controller 2 takes over: bead fetched';
+const reason = { code: 'held', error_m: 0, threshold_m: 0.1, text: '' } as const;
+const LOST = { code: 'took_over', sub_controller: 1, reason } as const;
+const FETCHED = { code: 'took_over', sub_controller: 2, reason } as const;
 
 function frame(
   time_s: number,
@@ -22,7 +24,7 @@ function frame(
     tool_m: [0, 0, 0.1],
     tracking_error_m: 0,
     mode: 2,
-    phase: 'transporting',
+    phase: phaseOf('transporting'),
     ...change,
   });
   return { scene, state, overlay: undefined, marks };
@@ -37,7 +39,12 @@ describe('a track', () => {
     const track = trackOf([
       frame(1, { tool_m: [0.04, 0, 0.1], tracking_error_m: 0.016 }),
       frame(2, { tool_m: [0.04, 0.03, 0.1], tracking_error_m: 0.01 }),
-      frame(3, { tool_m: [0.04, 0.03, 0.1], tracking_error_m: 0.2, phase: 'approaching', mode: 1 }),
+      frame(3, {
+        tool_m: [0.04, 0.03, 0.1],
+        tracking_error_m: 0.2,
+        phase: phaseOf('approaching'),
+        mode: 1,
+      }),
     ]);
     expect(track.travelled_m).toBeCloseTo(0.07, 9);
     expect(track.carryingError_m).toBe(0.016);
@@ -90,12 +97,12 @@ describe('a track', () => {
     expect(trackOf(frames).lingered_s).toBeCloseTo(7, 6);
     const holding = frames.map((frame) => ({
       ...frame,
-      state: { ...frame.state, phase: 'delivered' },
+      state: { ...frame.state, phase: phaseOf('delivered') },
     }));
     expect(trackOf(holding).lingered_s).toBe(0);
     const stopped = frames.map((frame) => ({
       ...frame,
-      state: { ...frame.state, phase: 'stopped: 150 steps without reaching the goal' },
+      state: { ...frame.state, phase: stoppedBy('leg_steps', 150) },
     }));
     expect(trackOf(stopped).lingered_s).toBeCloseTo(7, 6);
   });
@@ -103,8 +110,8 @@ describe('a track', () => {
   it('keeps the height at which the bead jumped', () => {
     const track = trackOf([
       frame(1, { lift_ratio: 0.98, tool_m: [0, 0, 0.095] }),
-      frame(2, { lift_ratio: 1.2, tool_m: [0, 0, 0.094], phase: 'lifted off' }),
-      frame(3, { lift_ratio: 9, tool_m: [0, 0, 0.09], phase: 'lifted off' }),
+      frame(2, { lift_ratio: 1.2, tool_m: [0, 0, 0.094], phase: phaseOf('lifted_off') }),
+      frame(3, { lift_ratio: 9, tool_m: [0, 0, 0.09], phase: phaseOf('lifted_off') }),
     ]);
     expect(track.liftedAt_m).toBe(0.094);
   });

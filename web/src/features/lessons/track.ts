@@ -82,13 +82,13 @@ function distance_m(a: readonly [number, number], b: readonly [number, number]):
   return Math.hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-const isLoss = ({ kind, text }: EventMessage): boolean =>
-  kind === 'switch' && text.startsWith('sub-controller 1');
+const isLoss = ({ what }: EventMessage): boolean =>
+  what.code === 'took_over' && what.sub_controller === 1;
 
 function lingering(track: Track, state: StateMessage, at: readonly [number, number]) {
   const { anchor, lingered_s } = track;
   // At high speed few frames may arrive before the transport stops.
-  const isOnItsWay = state.phase === 'transporting' || state.phase.startsWith('stopped');
+  const isOnItsWay = state.phase.code === 'transporting' || state.phase.code === 'stopped';
   if (!isOnItsWay || state.hand_m || distance_m(anchor.at, at) > STILL_M) {
     return { anchor: { at, time_s: state.sim_time_s }, lingered_s };
   }
@@ -111,7 +111,7 @@ export function observe(track: Track, { scene, state, overlay, marks }: Frame): 
   const fetchedMark = marks.find(
     (mark) => mark.kind === 'switch' && !isLoss(mark) && lostMark && mark.tick > lostMark.tick,
   );
-  const isCarrying = state.phase === 'transporting' && state.mode === 2 && !state.hand_m;
+  const isCarrying = state.phase.code === 'transporting' && state.mode === 2 && !state.hand_m;
   const error_m = state.tracking_error_m;
   return {
     trial: track.trial,
@@ -127,10 +127,11 @@ export function observe(track: Track, { scene, state, overlay, marks }: Frame): 
     fetchedAt_s: track.fetchedAt_s ?? fetchedMark?.sim_time_s,
     disturbances: Math.max(track.disturbances, state.disturbances),
     deliveries: delivered(track, marks, plans),
-    stopped: track.stopped || state.phase.startsWith('stopped'),
+    stopped: track.stopped || state.phase.code === 'stopped',
     plans,
     greatestLift: Math.max(track.greatestLift, state.lift_ratio),
-    liftedAt_m: track.liftedAt_m ?? (state.phase === 'lifted off' ? state.tool_m[2] : undefined),
+    liftedAt_m:
+      track.liftedAt_m ?? (state.phase.code === 'lifted_off' ? state.tool_m[2] : undefined),
     ...lingering(track, state, at),
   };
 }

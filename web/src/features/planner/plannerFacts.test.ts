@@ -14,8 +14,8 @@ describe('the path', () => {
   });
 
   it('is searched only during a transport', () => {
-    expect(pathWords(PATH, 'transporting')).toBe('60.0 cm');
-    expect(pathWords([], 'transporting')).toBe('searching');
-    expect(pathWords([], 'approaching')).toBe('none');
+    expect(pathWords(PATH, { code: 'transporting' })).toBe('60.0 cm');
+    expect(pathWords([], { code: 'transporting' })).toBe('searching');
+    expect(pathWords([], { code: 'approaching' })).toBe('none');
   });
 });

@@ -14,7 +14,10 @@ export function pathLengthM(way: PlanLayer['way']): number {
 }
 
 /** Length of the path, or why there is no path. */
-export function pathWords(way: PlanLayer['way'], phase: StateMessage['phase']): string {
+export function pathWords(
+  way: PlanLayer['way'],
+  { code }: Pick<StateMessage['phase'], 'code'>,
+): string {
   if (way.length > 0) return centimetres(pathLengthM(way));
-  return phase === 'transporting' ? 'searching' : 'none';
+  return code === 'transporting' ? 'searching' : 'none';
 }

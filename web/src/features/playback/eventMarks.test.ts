@@ -1,13 +1,10 @@
 import { expect, test } from 'vitest';
+import { eventAt } from '../../lab/testingFacts';
 import { clusters, markTitle } from './eventMarks';
 import type { EventKind, EventMessage } from '../../net/protocol.gen';
 
-const at = (tick: number, kind: EventKind): EventMessage => ({
-  tick,
-  sim_time_s: tick * 0.008,
-  kind,
-  text: kind,
-});
+const at = (tick: number, kind: EventKind): EventMessage =>
+  eventAt(tick, kind, { code: 'took_up', about: kind });
 
 test('events that would overlap share a button with the name of the most important one', () => {
   const events = [at(0, 'goal'), at(10, 'disturbance'), at(12, 'switch'), at(200, 'delivered')];
@@ -16,8 +13,8 @@ test('events that would overlap share a button with the name of the most importa
     [0, '⇄', 3],
     [200, '✓', 1],
   ]);
-  expect(found[0]?.name).toBe('Switch at 0.1 s: switch, and 2 more');
-  expect(found[1]?.name).toBe('Delivered at 1.6 s: delivered');
+  expect(found[0]?.name).toBe('Switch at 0.1 s: set up: switch, and 2 more');
+  expect(found[1]?.name).toBe('Delivered at 1.6 s: set up: delivered');
 });
 
 test('a title names the events of a mark, but not hundreds of them', () => {

@@ -1,5 +1,6 @@
 // Events on the timeline. Those that would overlap share a button. Pure.
 
+import { eventWords } from '../../words/events';
 import type { EventMessage } from '../../net/protocol.gen';
 import { EVENT_SYMBOLS, eventTitle } from '../../lab/eventStory';
 
@@ -31,7 +32,7 @@ function clusterOf(px: number, events: readonly EventMessage[], first: EventMess
     events,
     first,
     symbol: EVENT_SYMBOLS[rank(first)]?.[1] ?? '',
-    name: `${eventTitle(first)}: ${first.text}${more}`,
+    name: `${eventTitle(first)}: ${eventWords(first.what)}${more}`,
   };
 }
 

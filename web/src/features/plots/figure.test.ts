@@ -3,18 +3,14 @@ import { History } from '../../lab/history';
 import type { Palette } from '../../ui/palette';
 import type { EventMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
+import { eventAt } from '../../lab/testingFacts';
 import { sampleAt } from './drawLocus';
 import { figureSvg, roundTicks } from './figureSvg';
 import { axisRange } from './parts';
 import { Rotation } from './rotation';
 import { csvOf, nearestIndex, shownWindow, spansOf, takeSample, thinnedIndices } from './sample';
 
-const disturbanceAt = (tick: number): EventMessage => ({
-  tick,
-  sim_time_s: tick * 0.008,
-  kind: 'disturbance',
-  text: 'disturbed',
-});
+const disturbanceAt = (tick: number): EventMessage => eventAt(tick, 'disturbance');
 
 function run(count: number, change: (tick: number) => Parameters<typeof stateAt>[1] = () => ({})) {
   const history = new History();

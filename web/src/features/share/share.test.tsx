@@ -74,7 +74,7 @@ it("shows the server's refusal of a link", async () => {
   const server = await open();
   window.location.hash = '#v=1&map=posts&controller=errt&seed=1&friction=7';
   await expect.poll(() => server.command('load_scenario')?.parameters?.friction).toBe(7);
-  server.refuse('out_of_range', 'friction is 7, it must be 0 to 1');
+  server.refuse('map_refused', 'friction is 7, it must be 0 to 1');
   await expect.element(page.getByText('friction is 7, it must be 0 to 1')).toBeVisible();
 });
 

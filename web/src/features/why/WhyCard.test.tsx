@@ -1,4 +1,5 @@
 import { expect, it } from 'vitest';
+import { eventAt } from '../../lab/testingFacts';
 import { page } from 'vitest/browser';
 import { fakeLab, show } from '../../lab/testingLab';
 import { WhyCard } from './WhyCard';
@@ -8,7 +9,8 @@ it('closes when the trial restarts', async () => {
   show(() => <WhyCard lab={lab} />);
   const card = page.getByRole('dialog');
   await expect.poll(() => lab.scene()).toBeDefined();
-  server.tell({ type: 'event', tick: 1, sim_time_s: 0.008, kind: 'goal', text: 'goal placed' });
+  const placed = { code: 'goal_placed', x_m: 0.1, y_m: -0.3 } as const;
+  server.tell({ type: 'event', ...eventAt(1, 'goal', placed) });
   await expect.poll(() => lab.marks().length).toBe(1);
   lab.inspect(lab.marks()[0]);
   await expect.element(card).toHaveTextContent('Goal placed');

@@ -1,5 +1,6 @@
 // The story of one event: why it happened, what the camera saw, and buttons to continue from there.
 
+import { eventWords } from '../../words/events';
 import { Match, Show, Switch, createEffect, createMemo, createResource, on } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
 import type { JSX } from 'solid-js';
@@ -120,7 +121,7 @@ function Card(props: {
         </button>
       </header>
       <div class="why-body">
-        <p class="why-sentence">{sentence(props.event.text)}</p>
+        <p class="why-sentence">{sentence(eventWords(props.event.what))}</p>
         <Show when={isPast()}>
           <p class="hint">
             The session was rewound and then took another course; this event is not part of it.

@@ -40,7 +40,7 @@ export type Role = "operator" | "viewer";
 /**
  * What the server sends as text.
  */
-export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & ErrorMessage;
+export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & SessionError;
 
 /**
  * See `ServerMessage::Hello`.
@@ -112,17 +112,17 @@ export type EventMessage = { tick: number, sim_time_s: number, kind: EventKind, 
 again?: boolean, };
 
 /**
- * See `ServerMessage::Error`; an HTTP problem has the same fields.
+ * See `ServerMessage::Error`.
  */
-export type ErrorMessage = { 
-/**
- * For programs, such as `in_wall`.
- */
-code: string, 
+export type SessionError = { code: RefusalCode, 
 /**
  * For people: names the field and the value.
  */
-message: string, field?: string, };
+message: string, field?: string, 
+/**
+ * What was refused, by name.
+ */
+values: Record<string, unknown>, };
 
 /**
  * See `ServerMessage::Done`.
