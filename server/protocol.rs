@@ -6,6 +6,7 @@
 //! little-endian, then the payload.
 
 mod answer;
+mod catalog;
 mod challenges;
 mod client;
 mod comparison;
@@ -31,6 +32,7 @@ mod typescript;
 mod workspace;
 
 pub use answer::{DoneMessage, Refusal, RefusedMessage};
+pub use catalog::{CatalogMessage, TrainingPointsMessage};
 pub use challenges::{
     AttemptAnswer, AttemptQuery, AttemptReport, AttemptStanding, BoardEntry, ChallengeReport, ChallengeSummary,
     Challenges, GhostMessage, Ghosts, MishapMessage, Period, TraceMessage,
@@ -57,13 +59,12 @@ pub use recoveries::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary,
 pub use server::{CaseSummary, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
 pub use tracker::{GoalPlace, TrackerEstimate};
 pub use trainings::{
-    Examination, TrainingCells, TrainingFrame, TrainingMessage, TrainingPoint, TrainingReport, TrainingStage,
-    TrainingSummary, Trainings,
+    Examination, TrainingCells, TrainingFrame, TrainingPoint, TrainingReport, TrainingStage, TrainingSummary, Trainings,
 };
 pub use workspace::{WorkspaceMap, WorkspaceQuery};
 
 /// Protocol version. Increase it when an old page could misread the server.
-pub const PROTOCOL_VERSION: u32 = 6;
+pub const PROTOCOL_VERSION: u32 = 7;
 /// Largest message from a browser. A test case of a few minutes of dragging fits.
 pub const MAX_MESSAGE_BYTES: usize = 2 << 20;
 /// Binary frame: the camera image, a JPEG file of 480×480.

@@ -142,6 +142,8 @@ fn modules() -> [(&'static str, Vec<Declaration>); 18] {
                 EventKind,
                 EventMessage,
                 ErrorMessage,
+                CatalogMessage,
+                TrainingPointsMessage,
                 DoneMessage,
                 RefusedMessage
             ],
@@ -210,7 +212,6 @@ fn modules() -> [(&'static str, Vec<Declaration>); 18] {
                 TrainingSummary,
                 TrainingReport,
                 Trainings,
-                TrainingMessage,
                 TrainingCells,
                 Ending,
                 Trail,

@@ -21,7 +21,7 @@ export * from './protocol/robot.gen';
 export * from './protocol/policies.gen';
 
 /** Version of the messages. */
-export const PROTOCOL_VERSION = 6;
+export const PROTOCOL_VERSION = 7;
 
 /** First byte of a binary message with a camera image. */
 export const BINARY_CAMERA_JPEG = 1;

@@ -1,10 +1,16 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 import type { Parameters } from '../parameters.gen';
+import type { ChallengeSummary } from './challenges.gen';
 import type { ComparisonMessage } from './comparison.gen';
+import type { EvaluationSummary } from './evaluations.gen';
 import type { ControllerName, Disturbance, PositionerKind, Scripted } from './experiment.gen';
 import type { OverlayMessage, SeenMessage } from './layers.gen';
+import type { PolicySummary } from './policies.gen';
+import type { ProgramStanding } from './programs.gen';
+import type { RecoverySummary } from './recoveries.gen';
 import type { SceneMessage, StateMessage } from './session.gen';
+import type { TrainingPoint, TrainingSummary } from './trainings.gen';
 
 /**
  * A message from a browser. Positions are in metres in `base`.
@@ -29,7 +35,11 @@ repeat: number, } | { "type": "disturb", disturbance: Disturbance, } | { "type":
 /**
  * Another number for each press: one whose motion has ended moves nothing again.
  */
-press?: number, } | { "type": "take_control", } | { "type": "release_control", };
+press?: number, } | { "type": "watch_training", 
+/**
+ * Its id.
+ */
+training: string | null, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
  * Role of a browser.
@@ -39,7 +49,7 @@ export type Role = "operator" | "viewer";
 /**
  * What the server sends as text.
  */
-export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & ErrorMessage;
+export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "catalog" } & CatalogMessage | { "type": "training_points" } & TrainingPointsMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & ErrorMessage;
 
 /**
  * See `ServerMessage::Hello`.
@@ -126,6 +136,25 @@ code: string,
  * For people: names the field and the value.
  */
 message: string, field?: string, };
+
+/**
+ * A list of the server, whole, with the items of its HTTP resource.
+ */
+export type CatalogMessage = { "list": "maps", "items": Array<string> } | { "list": "policies", "items": Array<PolicySummary> } | { "list": "trainings", "items": Array<TrainingSummary> } | { "list": "evaluations", "items": Array<EvaluationSummary> } | { "list": "recoveries", "items": Array<RecoverySummary> } | { "list": "programs", "items": Array<ProgramStanding> } | { "list": "challenges", "items": Array<ChallengeSummary> };
+
+/**
+ * Points of the training that this browser watches.
+ */
+export type TrainingPointsMessage = { 
+/**
+ * Id of the training.
+ */
+training: string, 
+/**
+ * Number of points before these, 0 in the first message. Those that came after them before are replaced: a training
+ * that failed goes on from an earlier point.
+ */
+first: number, points: Array<TrainingPoint>, };
 
 /**
  * See `ServerMessage::Done`.
