@@ -130,7 +130,11 @@ export function Page(): JSX.Element {
           />
         </Match>
         <Match when={view() === 'recordings'}>
-          <LazyRecordingsView theme={theme} session={lab.session} />
+          <LazyRecordingsView
+            theme={theme}
+            session={lab.session}
+            isRunning={lab.state()?.running === true}
+          />
         </Match>
         <Match when={view() === 'evaluate'}>
           <LazyEvaluateView

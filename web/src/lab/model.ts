@@ -206,7 +206,9 @@ function withMessage(model: Model, message: ServerMessage): Model {
         message,
       );
     }
-    // For the page's commands.
+    // For the page's commands and lists.
+    case 'catalog':
+    case 'training_points':
     case 'done':
     case 'refused':
       return model;

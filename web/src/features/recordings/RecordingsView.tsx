@@ -13,10 +13,12 @@ export interface RecordingsProps {
   readonly theme: Accessor<Theme>;
   /** The session of the page. */
   readonly session: string;
+  /** Whether it is recorded now. */
+  readonly isRunning: boolean;
 }
 
 export function RecordingsView(props: RecordingsProps): JSX.Element {
-  const { list, error, refresh, rename, discard } = createRecordings();
+  const { list, error, refresh, rename, discard } = createRecordings(() => props.isRunning);
   const [open, setOpen] = createSignal<RecordingFile>();
   /** Why the last change was refused. */
   const [refusal, setRefusal] = createSignal<string>();

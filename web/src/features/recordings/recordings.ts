@@ -1,6 +1,6 @@
-// The list of recordings, polled while it is visible, changes to it, and the text of its entries.
+// The list of recordings, polled while the session's own recording grows, changes to it, and the text of its entries.
 
-import { createSignal, onCleanup, onMount, type Accessor } from 'solid-js';
+import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
 import { get, patch, remove } from '../../net/requests';
 import type { RecordingFile, RecordingList, RecordingTitle } from '../../net/protocol.gen';
 
@@ -67,8 +67,8 @@ export interface Recordings {
   readonly discard: (id: string, beforeRemoval: () => void) => Promise<void>;
 }
 
-/** The list, polled while the page is visible. */
-export function createRecordings(): Recordings {
+/** The list, read again when the page is shown, and again and again while `grows`. */
+export function createRecordings(grows: Accessor<boolean>): Recordings {
   const [list, setList] = createSignal<readonly RecordingFile[]>();
   const [error, setError] = createSignal<string>();
   let asking = false;
@@ -108,15 +108,18 @@ export function createRecordings(): Recordings {
   const whileVisible = (): void => {
     if (document.visibilityState === 'visible') refresh();
   };
-  onMount(() => {
+  createEffect(() => {
     refresh();
+    if (!grows()) return;
     const timer = setInterval(whileVisible, REFRESH_MS);
-    document.addEventListener('visibilitychange', whileVisible);
     onCleanup(() => {
-      closed = true;
       clearInterval(timer);
-      document.removeEventListener('visibilitychange', whileVisible);
     });
+  });
+  document.addEventListener('visibilitychange', whileVisible);
+  onCleanup(() => {
+    closed = true;
+    document.removeEventListener('visibilitychange', whileVisible);
   });
   return { list, error, refresh, rename, discard };
 }
