@@ -1,6 +1,6 @@
 // The list of recordings, polled while the session's own recording grows, changes to it, and the text of its entries.
 
-import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
+import { createEffect, createSignal, on, onCleanup, type Accessor } from 'solid-js';
 import { get, patch, remove } from '../../net/requests';
 import type { RecordingFile, RecordingList, RecordingTitle } from '../../net/protocol.gen';
 
@@ -67,8 +67,8 @@ export interface Recordings {
   readonly discard: (id: string, beforeRemoval: () => void) => Promise<void>;
 }
 
-/** The list, read again when the page is shown, and again and again while `grows`. */
-export function createRecordings(grows: Accessor<boolean>): Recordings {
+/** The list, read again when the page is shown, and while `moved` changes, which is what the session records. */
+export function createRecordings(moved: Accessor<unknown>): Recordings {
   const [list, setList] = createSignal<readonly RecordingFile[]>();
   const [error, setError] = createSignal<string>();
   let asking = false;
@@ -108,17 +108,27 @@ export function createRecordings(grows: Accessor<boolean>): Recordings {
   const whileVisible = (): void => {
     if (document.visibilityState === 'visible') refresh();
   };
-  createEffect(() => {
-    refresh();
-    if (!grows()) return;
-    const timer = setInterval(whileVisible, REFRESH_MS);
-    onCleanup(() => {
-      clearInterval(timer);
-    });
-  });
+  // The server writes about a second later what was recorded: the list is read once more than it has changed.
+  let left = 1;
+  createEffect(
+    on(
+      moved,
+      () => {
+        left = 2;
+      },
+      { defer: true },
+    ),
+  );
+  refresh();
+  const timer = setInterval(() => {
+    if (left === 0) return;
+    left -= 1;
+    whileVisible();
+  }, REFRESH_MS);
   document.addEventListener('visibilitychange', whileVisible);
   onCleanup(() => {
     closed = true;
+    clearInterval(timer);
     document.removeEventListener('visibilitychange', whileVisible);
   });
   return { list, error, refresh, rename, discard };
