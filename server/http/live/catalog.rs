@@ -1,6 +1,7 @@
 //! The lists of the server and the points of a training, for all browsers of all sessions. A list is read and encoded once
 //! after it has changed.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
@@ -87,13 +88,15 @@ pub async fn keep(server: Weak<Server>) {
             for ((list, changes), newest) in ALL.into_iter().zip(&mut changes).zip(&mut lists).rev() {
                 if changes.has_changed().is_ok_and(|changed| changed) {
                     changes.mark_unchanged();
-                    *newest = list.read(&now);
+                    // A panic, which is logged, leaves the last one.
+                    if let Ok(read) = catch_unwind(AssertUnwindSafe(|| list.read(&now))) {
+                        *newest = read;
+                    }
                 }
             }
             now.lists.send_if_modified(|before| std::mem::replace(before, lists.clone()) != lists);
             changes
         });
-        // A panic has been logged.
         let Ok(read) = reading.await else { return };
         changes = read;
         tokio::time::sleep(EVERY).await;
@@ -132,13 +135,18 @@ impl Watched {
     /// The points that are new or other ones.
     fn news(&mut self) -> Option<TrainingPointsMessage> {
         let now = self.training.points();
-        let before = self.sent.as_deref().unwrap_or_default();
-        let first = before.iter().zip(&now).take_while(|(before, now)| before == now).count();
-        let is_known = self.sent.is_some() && first == now.len() && first == before.len();
+        let first = first_to_send(self.sent.as_deref(), &now)?;
         let points = now[first..].iter().map(TrainingPoint::from).collect();
         self.sent = Some(now);
-        (!is_known).then(|| TrainingPointsMessage { training: self.training.id.clone(), first, points })
+        Some(TrainingPointsMessage { training: self.training.id.clone(), first, points })
     }
+}
+
+/// The first point that is not the one that was sent; `None` if all are.
+fn first_to_send(sent: Option<&[Point]>, now: &[Point]) -> Option<usize> {
+    let before = sent.unwrap_or_default();
+    let first = before.iter().zip(now).take_while(|(before, now)| before == now).count();
+    (sent.is_none() || first < now.len() || first < before.len()).then_some(first)
 }
 
 impl Feed {
@@ -218,6 +226,21 @@ mod tests {
         feed.news(server).into_iter().map(read).collect()
     }
 
+    #[test]
+    fn each_point_is_sent_once_and_again_only_if_it_is_another_one() {
+        let points = |updates: &[u64]| -> Vec<Point> {
+            updates.iter().map(|&update| Point { update, ..Point::default() }).collect()
+        };
+        let three = points(&[100, 200, 300]);
+        assert_eq!(first_to_send(None, &[]), Some(0), "that there are none yet");
+        assert_eq!(first_to_send(None, &three), Some(0));
+        assert_eq!(first_to_send(Some(&three), &three), None);
+        assert_eq!(first_to_send(Some(&three[..2]), &three), Some(2));
+        // The training failed, and goes on from an earlier point.
+        assert_eq!(first_to_send(Some(&three), &three[..2]), Some(2));
+        assert_eq!(first_to_send(Some(&three), &points(&[100, 250])), Some(1));
+    }
+
     #[tokio::test(flavor = "multi_thread")]
     async fn a_slow_browser_gets_the_newest_list_once_and_a_quick_one_at_most_four_a_second() {
         let folder = tempfile::tempdir().unwrap();
@@ -233,7 +256,7 @@ mod tests {
         let begun = tokio::time::Instant::now();
         let mut messages = 0;
         for number in 0..30 {
-            drop(server.programs.connect(&format!("p{number:02}")).ok().expect("it connects"));
+            drop(server.programs.connect(&format!("p{number:02}")).expect("it connects"));
             tokio::time::sleep(Duration::from_millis(20)).await;
             messages += quick.news(&server).len();
         }
