@@ -11,6 +11,7 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use ferry_core::challenge::{Attempt, ChallengeName, Run, Score, Trace};
 use ferry_files::{read_at_most, replace};
+use ferry_lab::changes::Changes;
 
 /// Entries of a board; a better one takes the place of the last.
 const ENTRIES_MOST: usize = 100;
@@ -71,12 +72,13 @@ pub struct Boards {
     folder: PathBuf,
     /// Boards that were read, best entry first.
     read: Mutex<HashMap<ChallengeName, Vec<Entry>>>,
+    pub changes: Changes,
 }
 
 impl Boards {
     /// The boards in a folder, which may not exist yet.
     pub fn in_folder(folder: PathBuf) -> Self {
-        Self { folder, read: Mutex::default() }
+        Self { folder, read: Mutex::default(), changes: Changes::default() }
     }
 
     /// All entries of a challenge, best first. Unreadable files are left out.
@@ -148,6 +150,8 @@ impl Boards {
         }
         forget_traces(&mut after);
         *entries = after;
+        drop(read);
+        self.changes.note();
         Ok(true)
     }
 

@@ -149,6 +149,8 @@ pub struct Server {
     evaluations: Evaluations,
     recoveries: Recoveries,
     trainings: Trainings,
+    /// The newest message about each of these lists.
+    lists: watch::Sender<live::Lists>,
     sessions: Arc<Sessions>,
     /// Permits for long computations.
     workers: Arc<Semaphore>,
@@ -182,15 +184,11 @@ impl Server {
         let maps = Maps::in_folder(data.join("maps"), opening.map.clone());
         let settings = SessionSettings { most: sessions, park_after, opening };
         let saved = SavedSessions::in_folder(data.join("sessions"), start_over);
-        let changed = maps.version.clone();
-        let policies = Arc::new(Library::in_folder(data.join("policies"), move || {
-            changed.send_modify(|version| *version += 1);
-        }));
+        let policies = Arc::new(Library::in_folder(data.join("policies")));
         let catalog = Catalog { maps: maps.all.clone(), policies: policies.clone() };
-        let sessions =
-            Sessions::new(gpu.clone(), recordings.clone(), catalog.clone(), maps.changes(), settings, saved, twin)?;
+        let sessions = Sessions::new(gpu.clone(), recordings.clone(), catalog.clone(), settings, saved, twin)?;
         let (jobs, sweeps) = (Arc::new(Queue::start(gpu.clone())?), data.join("sweeps"));
-        Ok(Arc::new(Self {
+        let server = Arc::new(Self {
             contests: Contests::in_folder(data.join("challenges")),
             programs: Programs::default(),
             evaluations: Evaluations::new(jobs.clone()),
@@ -211,6 +209,7 @@ impl Server {
             counters: Arc::default(),
             recordings,
             maps,
+            lists: watch::Sender::default(),
             catalog,
             atlases: Atlases::in_folder(sweeps),
             sessions: Arc::new(sessions),
@@ -223,7 +222,9 @@ impl Server {
             large_seats: Arc::new(Semaphore::new(live::LARGE_SEATS)),
             sockets: TaskTracker::new(),
             stopping,
-        }))
+        });
+        tokio::spawn(live::keep_lists(Arc::downgrade(&server)));
+        Ok(server)
     }
 
     /// The robot of the session `main`.

@@ -6,6 +6,7 @@
 //! little-endian, then the payload.
 
 mod answer;
+mod catalog;
 mod challenges;
 mod client;
 mod comparison;
@@ -31,6 +32,7 @@ mod typescript;
 mod workspace;
 
 pub use answer::{DoneMessage, Refusal, RefusedMessage, SessionError};
+pub use catalog::{CatalogMessage, TrainingPointsMessage};
 pub use challenges::{
     AttemptAnswer, AttemptQuery, AttemptReport, AttemptStanding, BoardEntry, ChallengeReport, ChallengeSummary,
     Challenges, GhostMessage, Ghosts, MishapMessage, Period, TraceMessage,
@@ -57,8 +59,7 @@ pub use recoveries::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary,
 pub use server::{CaseSummary, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
 pub use tracker::{GoalPlace, TrackerEstimate};
 pub use trainings::{
-    Examination, TrainingCells, TrainingFrame, TrainingMessage, TrainingPoint, TrainingReport, TrainingStage,
-    TrainingSummary, Trainings,
+    Examination, TrainingCells, TrainingFrame, TrainingPoint, TrainingReport, TrainingStage, TrainingSummary, Trainings,
 };
 pub use workspace::{WorkspaceMap, WorkspaceQuery};
 

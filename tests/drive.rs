@@ -239,8 +239,7 @@ async fn ferry_delivers_with_a_robot_over_the_wire() {
         loop {
             // A busy machine may be late, and the robot then stops. The operator presses again.
             let has_stopped = stopping();
-            let is_over =
-                |m: &Value| m["deliveries"] == 1 || m["phase"]["code"] == "stopped";
+            let is_over = |m: &Value| m["deliveries"] == 1 || m["phase"]["code"] == "stopped";
             let end = hold_until(&mut page, "a delivery", Duration::from_secs(300), |m| {
                 m["type"] == "state" && (has_stopped(m) || is_over(m)) || m["type"] == "error"
             })
@@ -252,7 +251,12 @@ async fn ferry_delivers_with_a_robot_over_the_wire() {
                 assert!(stops <= 20 * wanted, "the robot stops again and again");
                 continue;
             }
-            eprintln!("seed {seed}: {} after {:.1} s, {}", end["phase"]["text"], number(&end["sim_time_s"]), end["refusal"]["text"]);
+            eprintln!(
+                "seed {seed}: {} after {:.1} s, {}",
+                end["phase"]["text"],
+                number(&end["sim_time_s"]),
+                end["refusal"]["text"]
+            );
             delivered += usize::from(end["deliveries"] == 1);
             break;
         }

@@ -19,7 +19,7 @@ const FLOORS: [(&str, &[&[&str]]); 3] = [
             &["session"],
         ],
     ),
-    ("lab", &[&["program", "jobs"], &["learn", "evaluate"], &["recovery"]]),
+    ("lab", &[&["changes"], &["program", "jobs"], &["learn", "evaluate"], &["recovery"]]),
     ("server", &[&["boards", "export", "faults"], &["session"], &["protocol"], &["http"], &["cli"]]),
 ];
 
@@ -40,7 +40,7 @@ const NOT_IN_CORE: [&str; 9] = ["tokio", "wgpu", "re_", "axum", "tracing", "temp
 /// Crates that only these modules may use.
 const CONFINED: [(&str, &[&str]); 4] = [
     ("candle_core", &["policy", "learn"]),
-    ("tokio", &["program", "ur", "session", "http", "cli"]),
+    ("tokio", &["changes", "program", "ur", "session", "http", "cli"]),
     (
         "utoipa",
         &[

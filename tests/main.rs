@@ -5,6 +5,7 @@ mod answers;
 mod attempts;
 mod calculator;
 mod cases;
+mod catalog;
 mod challenges;
 mod circles;
 mod commands;

@@ -96,8 +96,6 @@ fn messages_and_bodies_that_never_end_fill_no_memory_and_others_are_served() {
     let data = tempfile::tempdir().unwrap();
     let ferry = Ferry::serve(&mut ferry(&[]), data.path());
     let address = ferry.address;
-    let training = json!({"map": "u-turn", "name": "kept", "seed": 1, "settings": {"updates": 1}});
-    assert_eq!(ask(address, "POST", "/api/trainings", &training.to_string()).0, 201);
     for session in ["anna", "bea"] {
         assert_eq!(ask(address, "GET", &format!("/s/{session}"), "").0, 200);
     }
@@ -110,7 +108,6 @@ fn messages_and_bodies_that_never_end_fill_no_memory_and_others_are_served() {
                 let session = ["main", "anna", "bea"][round % 3];
                 (format!("/api/sessions/{session}/live"), if round < 8 { 2 << 20 } else { 64 << 10 })
             }
-            "/api/trainings/{id}/live" => ("/api/trainings/training-1/live".to_owned(), 1 << 10),
             "/api/controllers/{name}" => (format!("/api/controllers/p{round}?protocol=1"), 16 << 10),
             other => panic!("another route upgrades: {other}; add it here"),
         };

@@ -119,8 +119,9 @@ async fn ur_rtde_commands_the_arm_within_the_limits_until_the_operator_takes_it(
     let pace = tokio::spawn(python("tests/pace_robot.py", vec![ADDRESS.to_owned(), "6".to_owned()]));
     browser.state("it moves", |state| state["robot"]["command"] == "servoj").await;
     browser.send(json!({"type": "select_controller", "controller": "errt"})).await;
-    let taken =
-        |m: &Value| m["type"] == "event" && m["what"]["text"].as_str().unwrap().contains("the operator has taken the arm");
+    let taken = |m: &Value| {
+        m["type"] == "event" && m["what"]["text"].as_str().unwrap().contains("the operator has taken the arm")
+    };
     browser.until("it is taken", taken).await;
     let before = browser.state("without a program", |state| state["robot"]["program"].is_null()).await;
     browser.whenever("it has left", |m| m["type"] == "state" && m["robot"]["clients"] == json!([])).await;

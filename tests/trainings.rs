@@ -1,6 +1,7 @@
 //! Trainings and policies over HTTP: the same bits as on the command line, a policy that sessions can select, and clear
 //! refusals.
 
+use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
 use ferry_core::policy::{Manifest, Policy};
@@ -32,14 +33,24 @@ async fn ended(lab: &Laboratory, id: &str) -> Value {
     }
 }
 
-/// The updates of all points until the end.
-async fn points(mut live: Browser) -> Vec<u64> {
+/// The updates of all points until the last one. The browser connects again after each message with points.
+async fn points(lab: SocketAddr, last: u64) -> Vec<u64> {
     let mut points = Vec::new();
     loop {
-        let message = live.whenever("the end", |_| true).await;
-        points.extend(message["points"].as_array().unwrap().iter().map(|point| point["update"].as_u64().unwrap()));
-        if message["summary"]["stage"] == "done" {
-            return points;
+        let mut browser = Browser::at(lab).await;
+        browser.send(json!({"type": "watch_training", "training": "training-1"})).await;
+        points.clear();
+        loop {
+            let message = browser.whenever("a point", |m| m["type"] == "training_points").await;
+            assert_eq!(message["first"], json!(points.len()), "no gap, and none twice");
+            let new = message["points"].as_array().unwrap();
+            points.extend(new.iter().map(|point| point["update"].as_u64().unwrap()));
+            if points.last() == Some(&last) {
+                return points;
+            }
+            if !new.is_empty() && message["first"] != 0 {
+                break;
+            }
         }
     }
 }
@@ -51,21 +62,24 @@ async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
     let mut browser = lab.browser().await;
     let (status, made) = lab.ask("POST", "/api/trainings", &query(json!({})).to_string()).await;
     assert_eq!((status, &made["id"], &made["updates_total"]), (201, &json!("training-1"), &json!(200)), "{made}");
-    let live = format!("ws://{}/api/trainings/training-1/live", lab.address);
-    let (live, _) = tokio_tungstenite::connect_async(live).await.unwrap();
     // Both are read meanwhile: a client that does not read is disconnected.
-    let points = tokio::spawn(points(Browser::of(live)));
+    let points = tokio::spawn(points(lab.address, 200));
     let told = tokio::spawn(async move {
-        let knows = |m: &Value| m["type"] == "scene" && m["policies"] != json!([]);
-        let scene = browser.whenever("the policy", knows).await;
-        (browser, scene)
+        let scene = browser.whenever("the scene", |m| m["type"] == "scene").await;
+        let is_added = |policy: &Value| policy["is_shipped"] == json!(false);
+        let knows = |m: &Value| m["list"] == "policies" && m["items"].as_array().unwrap().iter().any(is_added);
+        let list = browser.whenever("the policy", knows).await;
+        let ends = |m: &Value| m["list"] == "trainings" && m["items"][0]["stage"] == "done";
+        // The policy comes first: with the training's end it can be selected.
+        browser.whenever("the end", ends).await;
+        (browser, scene, list)
     });
     let done = ended(&lab, "training-1").await;
     assert_eq!((&done["stage"], &done["updates"], &done["frames"]), (&json!("done"), &json!(200), &json!(2)), "{done}");
     assert_eq!(done["curve"].as_array().unwrap().len(), 2);
     assert_eq!(done["examined"]["episodes"], 1000);
 
-    assert_eq!(points.await.unwrap(), [100, 200], "each once, in order, and then the end");
+    assert_eq!(points.await.unwrap(), [100, 200], "each once, in order");
 
     let (_, cells) = lab.ask("GET", "/api/trainings/training-1/cells", "").await;
     let count = cells["centers_m"].as_array().unwrap().len();
@@ -78,8 +92,8 @@ async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
 
     // The page learns of the policy, and a session takes it.
     let reference = done["policy"].as_str().unwrap().to_owned();
-    let (mut browser, scene) = told.await.unwrap();
-    assert_eq!(scene["policies"], json!([reference]));
+    let (mut browser, scene, list) = told.await.unwrap();
+    assert_eq!(list["items"].as_array().unwrap().last().unwrap()["reference"], json!(reference));
     let mut parameters = scene["parameters"].clone();
     parameters["rl_policy"] = json!("mine");
     browser.send(json!({"type": "configure", "parameters": parameters})).await;

@@ -9,6 +9,7 @@ use ferry::protocol::{Conversation, Outgoing};
 use ferry_camera::Gpu;
 use ferry_core::scenario::{ControllerName, Parameters};
 use ferry_files::open;
+use ferry_lab::changes::Changes;
 use ferry_lab::evaluate::{
     self, Contender, EvaluateError, Experiment, Manner, Part, PartError, Plan, Report, Shard, Watch, run_trials,
     unrecorded,
@@ -59,7 +60,7 @@ fn contenders(controllers: &[(String, bool)]) -> PyResult<(Vec<Contender>, Vec<O
         if !is_own {
             return name.parse().map(Contender::Own).map_err(bad);
         }
-        let program = Arc::new(Program::new(name));
+        let program = Arc::new(Program::new(name, Changes::default()));
         let connection = program.connect().expect("it is new");
         let inbox = Mutex::new((connection, VecDeque::new()));
         own.push(Own { program: program.clone(), conversation: Mutex::new(Conversation::new(name)), inbox });

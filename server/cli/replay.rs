@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         Ok(Box::new(Camera::of(gpu, arena.static_scene())?))
     };
     let deciding = arguments.camera.then(|| {
-        let policies = Library::in_folder(arguments.data.join("policies"), || ());
+        let policies = Library::in_folder(arguments.data.join("policies"));
         Deciding { make_camera: &mut cameras, policies: Arc::new(policies) }
     });
     let replayed = replay(&log, deciding, &mut |_| bar.inc(1));

@@ -1,5 +1,6 @@
 //! The WebSocket: sends the newest state, receives commands.
 
+mod catalog;
 mod comparison;
 mod hand;
 mod hub;
@@ -22,13 +23,14 @@ use tokio::sync::{broadcast, oneshot, watch};
 use tokio::time::Instant;
 use utoipa::IntoParams;
 
+use self::catalog::Feed;
+pub use self::catalog::{Lists, keep as keep_lists};
 use self::hand::Hand;
 use self::hub::json;
 pub use self::hub::{CameraWatch, Encoded, Hub};
 use self::seat::Seat;
 use self::seats::Seats;
 use super::Server;
-use super::access::Token;
 use super::path::{Path, Query, SessionPath};
 use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
@@ -69,12 +71,7 @@ pub async fn live(
 ) -> Result<Response, Problem> {
     let hub = server.sessions.find(&id).ok_or_else(|| Problem::not_found("session", &id))?;
     let upgrade = upgrade?;
-    let key = match seat {
-        Some(key) if key.parse::<Token>().is_ok() => key,
-        Some(_) => return Err(refused_seat()),
-        None => Token::generate().map_err(Problem::internal)?,
-    };
-    let seat = Seat::take(&hub, key).ok_or_else(|| {
+    let seat = Seat::take(&hub, seat::key(seat)?).ok_or_else(|| {
         let detail = format!("session {id:?} has {} browsers already", hub.viewers());
         Problem::new(StatusCode::SERVICE_UNAVAILABLE, "too_many_viewers", detail)
     })?;
@@ -88,11 +85,6 @@ pub async fn live(
     }))
 }
 
-fn refused_seat() -> Problem {
-    let detail = "seat must be left out, or be the `seat` of an earlier hello: 64 hexadecimal digits";
-    Problem::new(StatusCode::BAD_REQUEST, "malformed", detail).field("seat")
-}
-
 struct Connection {
     seat: Seat,
     hub: Arc<Hub>,
@@ -101,6 +93,7 @@ struct Connection {
     /// Largest message from the browser.
     message_bytes: usize,
     hand: Arc<Hand>,
+    catalog: Feed,
     /// Answers of `step` commands, with the ids of their messages. The connection does not wait for them: it goes on sending
     /// states, and reads `pause`.
     stepping: FuturesUnordered<BoxFuture<'static, Stepped>>,
@@ -129,7 +122,8 @@ struct Outbox {
 impl Connection {
     fn new(seat: Seat, hub: Arc<Hub>, server: Arc<Server>, socket: Socket, message_bytes: usize) -> Self {
         let hand = Hand::new(seat.own, hub.clone());
-        Self { seat, hub, server, socket, message_bytes, hand, stepping: FuturesUnordered::new() }
+        let catalog = Feed::new(&server);
+        Self { seat, hub, server, socket, message_bytes, hand, catalog, stepping: FuturesUnordered::new() }
     }
 
     async fn serve(mut self) -> Result<(), axum::Error> {
@@ -159,6 +153,7 @@ impl Connection {
         out.past_version = out.encoded.borrow().past_version;
         self.send_newest(&mut out).await?;
         self.send_history(&mut comparison).await?;
+        self.send_catalog().await?;
         loop {
             tokio::select! {
                 changed = out.encoded.changed(), if goes_on => {
@@ -189,6 +184,7 @@ impl Connection {
                     }
                     self.greet(&now).await?;
                 }
+                () = self.catalog.changed() => self.send_catalog().await?,
                 message = self.socket.next() => match message? {
                     Some(Incoming::Text(text)) => self.handle(&text, &mut out).await?,
                     Some(Incoming::Binary) => {
@@ -269,6 +265,7 @@ impl Connection {
         while let Some(Some((id, stepped))) = self.stepping.next().now_or_never() {
             self.answer(id, stepped.map_err(Refusal::from), out).await?;
         }
+        self.send_catalog().await?;
         match taken {
             Ok(Taken::Done) => self.answer(id, Ok(()), out).await,
             Ok(Taken::Step(stepped)) => {
@@ -307,6 +304,7 @@ impl Connection {
         let own = self.seat.own;
         match message {
             ClientMessage::TakeControl {} => self.hub.reseat(|seats, now| seats.take(own, now)),
+            ClientMessage::WatchTraining { training } => self.catalog.watch(&self.server, training)?,
             ClientMessage::ReleaseControl {} => {
                 self.hand.release().await;
                 self.hub.reseat(|seats, now| seats.release(own, now));

@@ -13,6 +13,7 @@ use super::sessions::is_name;
 use super::socket::{Incoming, Limits, Socket};
 use crate::protocol::{Conversation, Outgoing};
 use ferry_core::scenario::ControllerName;
+use ferry_lab::changes::Changes;
 use ferry_lab::program::{Connection, Program};
 
 pub const LIMITS: Limits = Limits { message_bytes: 16 << 10, ping_every: Duration::from_secs(5) };
@@ -21,6 +22,7 @@ const PROGRAMS_MOST: usize = 32;
 #[derive(Default)]
 pub struct Programs {
     all: RwLock<BTreeMap<String, Arc<Program>>>,
+    pub changes: Changes,
 }
 
 impl Programs {
@@ -50,7 +52,8 @@ impl Programs {
             let detail = format!("{PROGRAMS_MOST} programs are connected already");
             return Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_programs", detail));
         }
-        let program = all.entry(name.to_owned()).or_insert_with(|| Arc::new(Program::new(name))).clone();
+        let program =
+            all.entry(name.to_owned()).or_insert_with(|| Arc::new(Program::new(name, self.changes.clone()))).clone();
         let Some(connection) = program.connect() else {
             let detail = format!("a program with the name {name:?} is connected already; use another name");
             return Err(Problem::new(StatusCode::CONFLICT, "taken", detail).field("name"));

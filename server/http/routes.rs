@@ -3,9 +3,9 @@
 mod calculator;
 mod camera_stream;
 pub mod challenges;
-mod controllers;
+pub mod controllers;
 pub mod description;
-mod evaluations;
+pub mod evaluations;
 mod flow;
 mod health;
 mod lumen;
@@ -13,10 +13,10 @@ pub mod maps;
 mod moments;
 mod policies;
 mod recordings;
-mod recoveries;
+pub mod recoveries;
 mod sessions;
 mod tracker;
-mod trainings;
+pub mod trainings;
 pub mod values;
 mod viewer;
 
@@ -89,7 +89,6 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(trainings::resume))
         .routes(routes!(trainings::cells))
         .routes(routes!(trainings::frame))
-        .routes(routes!(trainings::live))
         .routes(routes!(challenges::list))
         .routes(routes!(challenges::report))
         .routes(routes!(challenges::ghosts))

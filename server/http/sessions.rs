@@ -51,8 +51,6 @@ pub struct Sessions {
     gpu: Arc<Gpu>,
     archive: Arc<Archive>,
     catalog: Catalog,
-    /// Changes whenever the list of maps or policies changes.
-    maps: watch::Receiver<u64>,
     settings: SessionSettings,
     saved: SavedSessions,
     /// The robot whose arm is that of [`MAIN`].
@@ -95,7 +93,6 @@ impl Sessions {
         gpu: Arc<Gpu>,
         archive: Arc<Archive>,
         catalog: Catalog,
-        maps: watch::Receiver<u64>,
         settings: SessionSettings,
         saved: SavedSessions,
         twin: Option<Arc<Twin>>,
@@ -104,7 +101,6 @@ impl Sessions {
             gpu,
             archive,
             catalog,
-            maps,
             settings,
             saved,
             robot: Arc::default(),
@@ -279,7 +275,7 @@ impl Sessions {
             tracing::warn!(%error, "the session mirrors no robot");
         }
         tracing::info!(session = id, "session opened");
-        Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))
+        Ok(Hub::start(id, session, self.gpu.clone()))
     }
 
     fn sink(&self, id: &str) -> Box<dyn Sink> {

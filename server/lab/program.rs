@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::{mpsc, oneshot};
 
+use crate::changes::Changes;
 use ferry_core::control::transport::program::Answer;
 use ferry_core::image::ImageSource;
 use ferry_core::trial::{ControlQuery, Seen, Source, TickRecord, Trial, TrialError};
@@ -82,6 +83,8 @@ impl Connection {
 pub struct Program {
     pub name: String,
     state: Mutex<State>,
+    /// Those of the list.
+    changes: Changes,
 }
 
 #[derive(Debug, Default)]
@@ -168,8 +171,9 @@ impl Carrier<'_> {
 }
 
 impl Program {
-    pub fn new(name: &str) -> Self {
-        Self { name: name.to_owned(), state: Mutex::default() }
+    /// A program in a list with these changes.
+    pub fn new(name: &str, changes: Changes) -> Self {
+        Self { name: name.to_owned(), state: Mutex::default(), changes }
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -185,6 +189,8 @@ impl Program {
         let (connection, sent) = mpsc::channel(QUESTIONS_MOST);
         let standing = Standing { is_connected: true, ..Standing::default() };
         *state = State { connection: Some(connection), standing };
+        drop(state);
+        self.changes.note();
         Some(Connection(sent))
     }
 
@@ -192,6 +198,8 @@ impl Program {
         let mut state = self.state();
         state.connection = None;
         state.standing.is_connected = false;
+        drop(state);
+        self.changes.note();
     }
 
     pub fn standing(&self) -> Standing {
@@ -229,7 +237,8 @@ impl Program {
 
     /// Counts a control step: with the time to its answer, or without a usable one.
     pub fn note(&self, latency: Option<Duration>) {
-        let standing = &mut self.state().standing;
+        let mut state = self.state();
+        let standing = &mut state.standing;
         match latency {
             Some(latency) => {
                 standing.answers += 1;
@@ -237,6 +246,8 @@ impl Program {
             }
             None => standing.missed += 1,
         }
+        drop(state);
+        self.changes.note();
     }
 
     /// What is done without an answer: none came `within` this time, or none that can be used.
@@ -279,7 +290,7 @@ mod tests {
 
     #[test]
     fn a_name_is_connected_once_at_a_time() {
-        let program = Program::new("mine");
+        let program = Program::new("mine", Changes::default());
         let asked = program.connect().unwrap();
         assert!(program.connect().is_none() && program.standing().is_connected);
         program.note(Some(Duration::from_millis(5)));

@@ -26,7 +26,7 @@ pub enum Period {
 }
 
 /// A line of a board.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct BoardEntry {
     pub player: String,
     pub class: Option<String>,
@@ -37,7 +37,7 @@ pub struct BoardEntry {
     pub total_s: f64,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct ChallengeSummary {
     pub name: String,
     pub difficulty: Difficulty,

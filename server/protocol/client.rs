@@ -159,6 +159,12 @@ pub enum ClientMessage {
         #[ts(optional)]
         press: Option<u32>,
     },
+    /// Asks for the points of a training, past and new, in place of those of another one; `null` for no more. Every browser
+    /// may.
+    WatchTraining {
+        /// Its id.
+        training: Option<String>,
+    },
     /// Requests control.
     TakeControl {},
     ReleaseControl {},
@@ -216,6 +222,7 @@ impl ClientMessage {
             | Self::OpenTry { .. }
             | Self::Compare { .. }
             | Self::DriveRobot { .. }
+            | Self::WatchTraining { .. }
             | Self::TakeControl {}
             | Self::ReleaseControl {} => {
                 return None;

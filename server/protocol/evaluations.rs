@@ -25,7 +25,7 @@ pub struct Cell {
 }
 
 /// A cell of an evaluation with its progress.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct EvaluationCell {
     /// Controller, map and disturbances.
     #[serde(flatten)]
@@ -41,7 +41,7 @@ pub struct EvaluationCell {
 }
 
 /// An evaluation without its rows.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct EvaluationSummary {
     pub id: String,
     pub query: EvaluationQuery,

@@ -22,7 +22,7 @@ pub struct PolicyOrigin {
 }
 
 /// A policy that can be selected.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct PolicySummary {
     pub name: String,
     /// What the parameter `rl_policy` takes: the name of a shipped one, `NAME@HASH` of an added one.

@@ -69,7 +69,7 @@ impl From<RecoveryQuery> for recovery::RecoveryQuery {
 }
 
 /// A recovery map without its cells.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct RecoverySummary {
     pub id: String,
     pub stage: JobStage,

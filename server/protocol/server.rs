@@ -6,8 +6,8 @@ use utoipa::ToSchema;
 
 use super::lumen::wave_m;
 use super::{
-    AttemptStanding, ComparisonMessage, DoneMessage, EventMessage, OverlayMessage, ProgramStanding, RefusedMessage,
-    SeenMessage, SessionError,
+    AttemptStanding, CatalogMessage, ComparisonMessage, DoneMessage, EventMessage, OverlayMessage, ProgramStanding,
+    RefusedMessage, SeenMessage, SessionError, TrainingPointsMessage,
 };
 use crate::session::View;
 use ferry_core::control::switching::Reason;
@@ -53,6 +53,10 @@ pub enum ServerMessage {
     Seen(SeenMessage),
     /// Progress of a comparison.
     Comparison(Box<ComparisonMessage>),
+    /// A list of the server: each once after `hello` and `scene`, and again when it has changed.
+    Catalog(CatalogMessage),
+    /// Points of the training that `watch_training` names: all so far, then the new ones.
+    TrainingPoints(TrainingPointsMessage),
     /// A message with an `id` was carried out. The state, the scene and the events that show it were sent before; the answer
     /// to `step` comes at its end, those to `fork` and `take_control` when they are accepted.
     Done(DoneMessage),
@@ -99,11 +103,6 @@ pub struct Hello {
 pub struct SceneMessage {
     /// Name of the map.
     pub map: String,
-    /// Maps that `load_scenario` accepts.
-    pub maps: Vec<String>,
-    /// Added policies that the parameter `rl_policy` accepts, besides the shipped ones.
-    #[serde(default)]
-    pub policies: Vec<String>,
     /// The trial's scenario; controller, goal and parameters may have changed since.
     pub scenario: Scenario,
     /// The positioner of this trial.
@@ -314,8 +313,6 @@ impl From<&Scenery> for SceneMessage {
         let p = &scenery.parameters;
         Self {
             map: map.name().to_owned(),
-            maps: scenery.catalog.maps.names(),
-            policies: scenery.catalog.policies.added().iter().map(ToString::to_string).collect(),
             scenario: scenery.scenario.clone(),
             positioner: scenery.positioner,
             controllers: ControllerName::SELECTABLE.to_vec(),

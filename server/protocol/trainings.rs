@@ -11,7 +11,7 @@ use ferry_lab::evaluate::wilson95;
 use ferry_lab::learn::sweep::STEP_M;
 use ferry_lab::learn::{self, Ending, Frame, Marks, Point, Status, Trail, Training, TrainingQuery};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TrainingStage {
     /// Another job is running.
@@ -69,7 +69,7 @@ pub struct TrainingPoint {
 }
 
 /// A training without its curve.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct TrainingSummary {
     pub id: String,
     pub query: TrainingQuery,
@@ -115,14 +115,6 @@ pub struct TrainingReport {
 pub struct Trainings {
     /// In the order of submission.
     pub trainings: Vec<TrainingSummary>,
-}
-
-/// Message of the WebSocket `/api/trainings/{id}/live`, after each change.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
-pub struct TrainingMessage {
-    pub summary: TrainingSummary,
-    /// Points since the last message; the first message has all.
-    pub points: Vec<TrainingPoint>,
 }
 
 /// The cells of a training's map: all lists of its value maps have this order.
@@ -240,15 +232,6 @@ impl From<&Training> for TrainingReport {
             summary: TrainingSummary::at(training, &status),
             curve: status.points.iter().map(TrainingPoint::from).collect(),
         }
-    }
-}
-
-impl TrainingMessage {
-    /// The present state, with the points after the first `known`.
-    pub fn after(training: &Training, known: usize) -> Self {
-        let status = training.status();
-        let points = status.points.iter().skip(known).map(TrainingPoint::from).collect();
-        Self { summary: TrainingSummary::at(training, &status), points }
     }
 }
 

@@ -145,6 +145,8 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 EventKind,
                 EventMessage,
                 SessionError,
+                CatalogMessage,
+                TrainingPointsMessage,
                 DoneMessage,
                 RefusedMessage
             ],
@@ -228,7 +230,6 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 TrainingSummary,
                 TrainingReport,
                 Trainings,
-                TrainingMessage,
                 TrainingCells,
                 Ending,
                 Trail,

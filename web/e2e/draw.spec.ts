@@ -134,7 +134,7 @@ test('a link brings a drawn map to a server that does not have it', async ({ lab
   await expect.poll(() => lab.scene.map).toBe('vee');
   await lab.reset({ map: 'posts' });
   expect((await page.request.delete(`${server.url}/api/maps/vee`)).status()).toBe(204);
-  await expect.poll(() => lab.scene.maps.includes('vee')).toBe(false);
+  await expect.poll(() => lab.lists.maps?.includes('vee')).toBe(false);
   // Otherwise the page still asks for its drawing.
   await lab.drawn();
   // The name of a deleted map is not given again.

@@ -46,7 +46,7 @@ test('opens an uploaded map, and delivers the bead on it', async ({ lab, server 
   await lab.button('Dismiss the report').click();
   await expect(report).toHaveCount(0);
   expect(lab.scene.walls.length).toBe(2);
-  expect(lab.scene.maps).toContain(name);
+  expect(lab.lists.maps).toContain(name);
   await expect(lab.label('Map')).toHaveValue(name);
   const stored = await page.request.get(`${server.url}/api/maps/${name}`);
   expect(await stored.text()).toBe(DRAWING);
@@ -56,7 +56,7 @@ test('opens an uploaded map, and delivers the bead on it', async ({ lab, server 
   const removed = await page.request.delete(`${server.url}/api/maps/${name}`);
   expect(removed.status()).toBe(204);
   await lab.reset();
-  await expect.poll(() => lab.scene.maps).not.toContain(name);
+  await expect.poll(() => lab.lists.maps).not.toContain(name);
   // A deleted name is not given to another drawing.
   await upload();
   await expect.poll(() => lab.scene.map).toMatch(/^map-/);

@@ -87,15 +87,14 @@ pub struct Hub {
 }
 
 impl Hub {
-    /// Starts encoding a session's views; `maps` changes whenever the list of maps changes.
-    pub fn start(id: &str, session: SessionHandle, mut maps: watch::Receiver<u64>, gpu: Arc<Gpu>) -> Arc<Self> {
+    /// Starts encoding a session's views.
+    pub fn start(id: &str, session: SessionHandle, gpu: Arc<Gpu>) -> Arc<Self> {
         let now = Instant::now();
         let views = session.watch();
-        let version = *maps.borrow_and_update();
         let mut encoder = Encoder::default();
-        let first = encoder.encode(&views.borrow(), version, true);
+        let first = encoder.encode(&views.borrow(), true);
         let (publish, encoded) = watch::channel(first);
-        let encoder = tokio::spawn(encode_all(encoder, views, maps, publish));
+        let encoder = tokio::spawn(encode_all(encoder, views, publish));
         Arc::new(Self {
             id: id.to_owned(),
             session,
@@ -274,27 +273,18 @@ impl Drop for CameraWatch {
     }
 }
 
-/// The value of `maps` changes with the list of maps.
-async fn encode_all(
-    mut encoder: Encoder,
-    mut views: watch::Receiver<Arc<View>>,
-    mut maps: watch::Receiver<u64>,
-    publish: watch::Sender<Encoded>,
-) {
+async fn encode_all(mut encoder: Encoder, mut views: watch::Receiver<Arc<View>>, publish: watch::Sender<Encoded>) {
     let mut camera_sent = Instant::now();
     loop {
         // A frame that came too soon after the last one is sent later, unless a newer one replaces it.
         let camera_next = camera_sent + CAMERA_EVERY;
         tokio::select! {
             changed = views.changed() => if changed.is_err() { return },
-            // The page lists the maps.
-            Ok(()) = maps.changed() => {}
             () = tokio::time::sleep_until(camera_next), if encoder.owes_sight => {}
         }
-        let version = *maps.borrow_and_update();
         let view = views.borrow_and_update().clone();
         let camera_due = camera_sent.elapsed() >= CAMERA_EVERY;
-        let encoded = encoder.encode(&view, version, camera_due);
+        let encoded = encoder.encode(&view, camera_due);
         if camera_due {
             camera_sent = Instant::now();
         }
@@ -305,14 +295,14 @@ async fn encode_all(
 #[derive(Default)]
 struct Encoder {
     last: Option<Encoded>,
-    /// Versions of the static parts and of the list of maps.
-    scene_version: Option<(u64, u64)>,
+    /// Version of the static parts.
+    scene_version: Option<u64>,
     sight: Option<Arc<(u64, ferry_core::trial::Sight)>>,
     owes_sight: bool,
 }
 
 impl Encoder {
-    fn encode(&mut self, view: &View, maps_version: u64, camera_due: bool) -> Encoded {
+    fn encode(&mut self, view: &View, camera_due: bool) -> Encoded {
         let mut next = self.last.clone().unwrap_or_else(|| Encoded {
             view: 0,
             state: Utf8Bytes::default(),
@@ -329,7 +319,7 @@ impl Encoder {
         });
         next.view = view.number;
         next.state = json(&ServerMessage::State(Box::new(StateMessage::from(view))));
-        let scene_version = Some((view.scenery.version, maps_version));
+        let scene_version = Some(view.scenery.version);
         if self.scene_version != scene_version {
             self.scene_version = scene_version;
             next.scene = json(&ServerMessage::Scene(Box::new(SceneMessage::from(&*view.scenery))));

@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
+use axum::http::StatusCode;
+
 use super::hub::Hub;
 use super::seats::Seats;
+use crate::http::access::Token;
+use crate::http::problem::Problem;
 
 /// A place among a session's browsers. Dropping it frees the place, also if the upgrade fails.
 pub struct Seat {
@@ -16,6 +20,18 @@ pub struct Seat {
 impl Seat {
     pub fn take(hub: &Arc<Hub>, key: String) -> Option<Self> {
         Some(Self { own: hub.reseat(Seats::join)?, key, hub: hub.clone() })
+    }
+}
+
+/// The key of a browser that connects again, otherwise a new one.
+pub fn key(known: Option<String>) -> Result<String, Problem> {
+    match known {
+        Some(key) if key.parse::<Token>().is_ok() => Ok(key),
+        Some(_) => {
+            let detail = "seat must be left out, or be the `seat` of an earlier hello: 64 hexadecimal digits";
+            Err(Problem::new(StatusCode::BAD_REQUEST, "malformed", detail).field("seat"))
+        }
+        None => Token::generate().map_err(Problem::internal),
     }
 }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
-use jiff::{Timestamp, Zoned, tz::TimeZone};
+use jiff::{Timestamp, Zoned, civil::Date, tz::TimeZone};
 
 use super::sessions::find;
 use crate::boards::{BoardError, Boards, Signature};
@@ -25,6 +25,7 @@ use ferry_core::image::CameraError;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Ended;
 use ferry_core::trial::TrialError;
+use ferry_lab::changes::Changes;
 use ferry_lab::jobs::gentle_pool;
 
 /// Attempts wait for each other, and so do the controllers' runs. An attempt never waits for them.
@@ -43,6 +44,11 @@ pub struct Contests {
 impl Contests {
     pub fn in_folder(folder: PathBuf) -> Self {
         Self { boards: Boards::in_folder(folder), ghosts: Mutex::default() }
+    }
+
+    /// Those of the boards. With the date, the list changes too.
+    pub fn changes(&self) -> &Changes {
+        &self.boards.changes
     }
 
     /// The controllers' runs on a challenge. Blocks for seconds the first time; live sessions continue meanwhile.
@@ -88,9 +94,17 @@ impl From<NoGhosts> for Problem {
     }
 }
 
+pub fn today() -> Date {
+    date(Timestamp::now())
+}
+
+fn date(now: Timestamp) -> Date {
+    Zoned::new(now, TimeZone::UTC).date()
+}
+
 /// Those of the day and of the week, in UTC.
 fn offered(now: Timestamp) -> Vec<(ChallengeName, Period)> {
-    let today = Zoned::new(now, TimeZone::UTC).date();
+    let today = date(now);
     let week = today.iso_week_date();
     let seeds = [(today.to_string(), Period::Day), (format!("{:04}-w{:02}", week.year(), week.week()), Period::Week)];
     let all = seeds.into_iter().flat_map(|(seed, period)| {
@@ -109,16 +123,18 @@ fn named(name: &str) -> Result<ChallengeName, Problem> {
 #[utoipa::path(get, path = "/api/challenges", tag = "challenges", operation_id = "challenges",
     responses((status = 200, body = Challenges), Unavailable))]
 pub async fn list(State(server): State<Arc<Server>>) -> Result<Json<Challenges>, Problem> {
-    let listed = server.work(|server| {
-        let boards = &server.contests.boards;
-        let offered = offered(Timestamp::now());
-        let mut earlier = boards.names();
-        earlier.retain(|name| offered.iter().all(|(other, _)| other != name));
-        let earlier = earlier.into_iter().rev().take(EARLIER_MOST).map(|name| (name, None));
-        let all = offered.into_iter().map(|(name, period)| (name, Some(period))).chain(earlier);
-        all.map(|(name, period)| ChallengeSummary::of(&name, period, &boards.of(&name))).collect()
-    });
-    Ok(Json(Challenges { challenges: listed.await? }))
+    Ok(Json(Challenges { challenges: server.work(|server| listed(server)).await? }))
+}
+
+/// Reads files.
+pub fn listed(server: &Server) -> Vec<ChallengeSummary> {
+    let boards = &server.contests.boards;
+    let offered = offered(Timestamp::now());
+    let mut earlier = boards.names();
+    earlier.retain(|name| offered.iter().all(|(other, _)| other != name));
+    let earlier = earlier.into_iter().rev().take(EARLIER_MOST).map(|name| (name, None));
+    let all = offered.into_iter().map(|(name, period)| (name, Some(period))).chain(earlier);
+    all.map(|(name, period)| ChallengeSummary::of(&name, period, &boards.of(&name))).collect()
 }
 
 /// A challenge with its board.

@@ -21,8 +21,11 @@ use crate::protocol::{PROGRAM_PROTOCOL_VERSION, ProgramStanding, Programs};
 #[utoipa::path(get, path = "/api/controllers", tag = "controllers", operation_id = "controllers",
     responses((status = 200, body = Programs)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Programs> {
-    let programs = server.programs.all().iter().map(|program| ProgramStanding::from(&**program)).collect();
-    Json(Programs { programs })
+    Json(Programs { programs: listed(&server) })
+}
+
+pub fn listed(server: &Server) -> Vec<ProgramStanding> {
+    server.programs.all().iter().map(|program| ProgramStanding::from(&**program)).collect()
 }
 
 #[derive(Deserialize, IntoParams)]

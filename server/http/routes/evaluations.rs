@@ -20,8 +20,11 @@ use ferry_lab::jobs::QueueError;
 #[utoipa::path(get, path = "/api/evaluations", tag = "evaluations", operation_id = "evaluations",
     responses((status = 200, body = Evaluations)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
-    let all = server.evaluations.all();
-    Json(Evaluations { evaluations: all.iter().map(|evaluation| EvaluationSummary::from(&**evaluation)).collect() })
+    Json(Evaluations { evaluations: listed(&server) })
+}
+
+pub fn listed(server: &Server) -> Vec<EvaluationSummary> {
+    server.evaluations.all().iter().map(|evaluation| EvaluationSummary::from(&**evaluation)).collect()
 }
 
 /// Starts an evaluation or queues it.

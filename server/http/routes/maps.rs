@@ -10,7 +10,6 @@ use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
-use tokio::sync::watch;
 use utoipa::{IntoParams, ToSchema};
 
 use crate::http::Server;
@@ -23,6 +22,7 @@ use ferry_core::map::{Library, MAX_SVG_BYTES, Map, MapError, READER, Summary, de
 use ferry_core::plant::BEAD_RADIUS_M;
 use ferry_core::trial::Arena;
 use ferry_files::replace;
+use ferry_lab::changes::Changes;
 
 /// A drawing of a map.
 fn example() -> serde_json::Value {
@@ -45,7 +45,7 @@ pub struct Maps {
     needed: String,
     /// Held while a map is added or removed, so that library and folder agree.
     changing: Mutex<()>,
-    pub version: watch::Sender<u64>,
+    pub changes: Changes,
 }
 
 /// The names of removed maps.
@@ -98,16 +98,7 @@ impl Maps {
                 tracing::warn!(path = %path.display(), ?restored, "uploaded map left out");
             }
         }
-        Self { all: library, folder, needed, changing: Mutex::default(), version: watch::Sender::new(0) }
-    }
-
-    /// Changes whenever the list of maps changes.
-    pub fn changes(&self) -> watch::Receiver<u64> {
-        self.version.subscribe()
-    }
-
-    fn changed(&self) {
-        self.version.send_modify(|version| *version += 1);
+        Self { all: library, folder, needed, changing: Mutex::default(), changes: Changes::default() }
     }
 
     fn add(&self, Wish { name: wished, fit }: Wish, svg: String) -> Result<MapReport, Problem> {
@@ -127,7 +118,7 @@ impl Maps {
             })?;
             map
         };
-        self.changed();
+        self.changes.note();
         let (name, summary) = (map.name().to_owned(), Summary::of(&map, BEAD_RADIUS_M));
         Ok(MapReport { name, facts: MapFacts::new(&summary, Arena::of(map).reached_share()) })
     }
@@ -161,7 +152,7 @@ impl Maps {
             tracing::warn!(%error, name, "the name of a removed map could not be kept: it may be given again");
         }
         self.all.remove(name);
-        self.changed();
+        self.changes.note();
         Ok(())
     }
 

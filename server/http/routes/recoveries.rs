@@ -24,8 +24,11 @@ use ferry_lab::recovery::{RecoveryJob, Report, Start, SubmitRecoveryError};
 #[utoipa::path(get, path = "/api/recoveries", tag = "recoveries", operation_id = "recoveries",
     responses((status = 200, body = Recoveries)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Recoveries> {
-    let all = server.recoveries.all();
-    Json(Recoveries { recoveries: all.iter().map(|job| RecoverySummary::from(&**job)).collect() })
+    Json(Recoveries { recoveries: listed(&server) })
+}
+
+pub fn listed(server: &Server) -> Vec<RecoverySummary> {
+    server.recoveries.all().iter().map(|job| RecoverySummary::from(&**job)).collect()
 }
 
 /// Starts a recovery map or queues it.

@@ -1,11 +1,9 @@
 //! `/api/trainings`: policies that learn a map, in the background.
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use axum::Json;
 use axum::extract::State;
-use axum::extract::ws::Message;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
@@ -13,22 +11,19 @@ use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{FramePath, Path, TrainingPath};
 use crate::http::problem::Problem;
-use crate::http::refusals::{Conflict, Malformed, NotFound, NotUpgraded, OutOfRange, TooMany, Unavailable};
-use crate::http::socket::{Limits, Socket, Upgrade};
-use crate::protocol::{TrainingCells, TrainingFrame, TrainingMessage, TrainingReport, TrainingSummary, Trainings};
+use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
+use crate::protocol::{TrainingCells, TrainingFrame, TrainingReport, TrainingSummary, Trainings};
 use ferry_lab::learn::{LibraryError, QueryError, SubmitTrainingError, Training, TrainingQuery};
-
-/// Interval at which a change is looked for.
-const LOOK_EVERY: Duration = Duration::from_millis(200);
-/// A page sends nothing but answers to pings.
-const LIMITS: Limits = Limits { message_bytes: 1 << 10, ping_every: Duration::from_secs(15) };
 
 /// The trainings: running, waiting, paused, and the last ended ones.
 #[utoipa::path(get, path = "/api/trainings", tag = "trainings", operation_id = "trainings",
     responses((status = 200, body = Trainings)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Trainings> {
-    let all = server.trainings.all();
-    Json(Trainings { trainings: all.iter().map(|training| TrainingSummary::from(&**training)).collect() })
+    Json(Trainings { trainings: listed(&server) })
+}
+
+pub fn listed(server: &Server) -> Vec<TrainingSummary> {
+    server.trainings.all().iter().map(|training| TrainingSummary::from(&**training)).collect()
 }
 
 /// Starts a training or queues it.
@@ -134,44 +129,6 @@ pub async fn frame(
     let status = find(&server, &id)?.status();
     let frame = status.frames.get(index).ok_or_else(|| Problem::not_found("value map", &index.to_string()))?;
     Ok(Json(TrainingFrame::from(&**frame)))
-}
-
-/// The WebSocket of a training: a `TrainingMessage` after each change, JSON. What the browser sends is not read.
-#[utoipa::path(get, path = "/api/trainings/{id}/live", tag = "trainings", params(TrainingPath),
-    operation_id = "training_live",
-    responses((status = 101, description = "The connection is a WebSocket from here on."), Malformed, NotFound, NotUpgraded))]
-pub async fn live(
-    State(server): State<Arc<Server>>,
-    Path(TrainingPath { id }): Path<TrainingPath>,
-    upgrade: Result<Upgrade, Problem>,
-) -> Result<Response, Problem> {
-    let training = find(&server, &id)?;
-    let watching = server.clone();
-    Ok(upgrade?.serve(&server, LIMITS, async move |socket| watch(&watching, &training, socket).await))
-}
-
-/// Sends until the browser disconnects or the training is removed.
-async fn watch(server: &Server, training: &Training, mut socket: Socket) -> Result<(), axum::Error> {
-    let mut look = tokio::time::interval(LOOK_EVERY);
-    let (mut sent, mut points) = (None, 0);
-    loop {
-        tokio::select! {
-            _ = look.tick() => {
-                let version = training.version();
-                if sent != Some(version) {
-                    let message = TrainingMessage::after(training, points);
-                    points += message.points.len();
-                    sent = Some(version);
-                    let text = serde_json::to_string(&message).map_err(axum::Error::new)?;
-                    socket.send(Message::text(text)).await?;
-                }
-                if server.trainings.find(&training.id).is_none() {
-                    return Ok(());
-                }
-            }
-            message = socket.next() => if message?.is_none() { return Ok(()) },
-        }
-    }
 }
 
 fn accepted(training: &Training) -> Response {

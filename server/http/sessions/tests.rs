@@ -8,8 +8,7 @@ fn sessions(folder: &tempfile::TempDir, settings: SessionSettings) -> Arc<Sessio
     let archive = Archive::new(folder.path().join("recordings"), ferry_recording::Retention::default());
     let saved = SavedSessions::in_folder(folder.path().join("sessions"), false);
     let gpu = Gpu::open(Default::default()).unwrap();
-    let maps = watch::channel(0).1;
-    Arc::new(Sessions::new(gpu, archive, Catalog::default(), maps, settings, saved, None).unwrap())
+    Arc::new(Sessions::new(gpu, archive, Catalog::default(), settings, saved, None).unwrap())
 }
 
 fn settings(most: usize, park_after: Duration) -> SessionSettings {

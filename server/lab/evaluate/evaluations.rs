@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Evaluation, EvaluationQuery, QueryError};
+use crate::changes::Changes;
 use crate::jobs::{Queue, QueueError, Shelf};
 use crate::program::Program;
 use ferry_core::trial::Catalog;
@@ -53,5 +54,10 @@ impl Evaluations {
     /// All kept evaluations, in the order of submission.
     pub fn all(&self) -> Vec<Arc<Evaluation>> {
         self.0.all()
+    }
+
+    /// Those of the list.
+    pub fn changes(&self) -> &Changes {
+        self.0.changes()
     }
 }

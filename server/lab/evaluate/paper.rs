@@ -1,6 +1,6 @@
 //! The paper's results, for comparison with ours.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
@@ -10,7 +10,7 @@ use ferry_core::scenario::ControllerName;
 use ferry_core::schema::Numbers2;
 
 /// The paper's numbers for a row.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct PaperRow {
     /// Source in the paper.
     pub section: String,

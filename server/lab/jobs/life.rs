@@ -1,7 +1,9 @@
 //! The stage of a job, what it has found so far, and its cancellation.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+use crate::changes::Changes;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Stage {
@@ -29,12 +31,19 @@ pub struct Life<T> {
     /// Checked by the job from time to time.
     stop: AtomicBool,
     state: Mutex<(Stage, T)>,
+    /// Those of the list that has it.
+    changes: OnceLock<Changes>,
 }
 
 impl<T> Life<T> {
     /// A waiting job.
     pub fn new(found: T) -> Self {
-        Self { stop: AtomicBool::new(false), state: Mutex::new((Stage::Waiting, found)) }
+        Self { stop: AtomicBool::default(), state: Mutex::new((Stage::Waiting, found)), changes: OnceLock::new() }
+    }
+
+    /// It is in a list, whose changes its own are.
+    pub fn report_to(&self, changes: &Changes) {
+        let _ = self.changes.set(changes.clone());
     }
 
     pub fn stage(&self) -> Stage {
@@ -49,31 +58,33 @@ impl<T> Life<T> {
 
     /// Updates the findings.
     pub fn update(&self, update: impl FnOnce(&mut T)) {
-        update(&mut self.lock().1);
+        self.change(|state| update(&mut state.1));
     }
 
     /// Starts the job. Returns false if it no longer waits.
     pub fn begin(&self) -> bool {
-        let mut state = self.lock();
-        let waits = state.0 == Stage::Waiting;
-        if waits {
-            state.0 = Stage::Running;
-        }
-        waits
+        self.change(|state| {
+            let waits = state.0 == Stage::Waiting;
+            if waits {
+                state.0 = Stage::Running;
+            }
+            waits
+        })
     }
 
     /// Cancels the job; a running one stops soon. Returns false if it had already ended.
     pub fn cancel(&self) -> bool {
-        let mut state = self.lock();
-        if state.0 == Stage::Waiting {
-            state.0 = Stage::Cancelled;
-            return true;
-        }
-        let runs = state.0 == Stage::Running;
-        if runs {
-            self.stop.store(true, Ordering::Relaxed);
-        }
-        runs
+        self.change(|state| {
+            if state.0 == Stage::Waiting {
+                state.0 = Stage::Cancelled;
+                return true;
+            }
+            let runs = state.0 == Stage::Running;
+            if runs {
+                self.stop.store(true, Ordering::Relaxed);
+            }
+            runs
+        })
     }
 
     /// True when the job should stop.
@@ -82,7 +93,15 @@ impl<T> Life<T> {
     }
 
     pub fn end(&self, stage: Stage) {
-        self.lock().0 = stage;
+        self.change(|state| state.0 = stage);
+    }
+
+    fn change<R>(&self, change: impl FnOnce(&mut (Stage, T)) -> R) -> R {
+        let result = change(&mut self.lock());
+        if let Some(changes) = self.changes.get() {
+            changes.note();
+        }
+        result
     }
 
     /// Ignores lock poisoning: no job holds the lock while it computes, and the findings would still be consistent.

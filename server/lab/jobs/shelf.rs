@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{Job, Life, Queue, QueueError, Stage, Workshop};
+use crate::changes::Changes;
 
 /// Number of ended jobs that are kept.
 const KEPT: usize = 16;
@@ -51,6 +52,7 @@ pub struct Shelf<J> {
     /// Before the number of each id.
     name: &'static str,
     kept: Mutex<Kept<J>>,
+    changes: Changes,
 }
 
 struct Kept<J> {
@@ -75,7 +77,8 @@ impl<J: Shelved> Kept<J> {
 impl<J: Shelved> Shelf<J> {
     /// Jobs that run in a queue; their ids are the name with a number.
     pub fn new(queue: Arc<Queue>, name: &'static str) -> Self {
-        Self { queue, name, kept: Mutex::new(Kept { jobs: VecDeque::new(), made: 0 }) }
+        let kept = Mutex::new(Kept { jobs: VecDeque::new(), made: 0 });
+        Self { queue, name, kept, changes: Changes::default() }
     }
 
     /// Makes a job for its id, and queues it.
@@ -85,10 +88,13 @@ impl<J: Shelved> Shelf<J> {
     pub fn submit(&self, make: impl FnOnce(String) -> Arc<J>) -> Result<Arc<J>, QueueError> {
         let mut kept = self.lock();
         let job = make(format!("{}-{}", self.name, kept.made + 1));
+        job.life().report_to(&self.changes);
         self.queue.submit(job.clone())?;
         kept.made += 1;
         kept.jobs.push_back(job.clone());
         kept.prune();
+        drop(kept);
+        self.changes.note();
         Ok(job)
     }
 
@@ -101,6 +107,10 @@ impl<J: Shelved> Shelf<J> {
         let mut kept = self.lock();
         kept.prune();
         kept.jobs.iter().cloned().collect()
+    }
+
+    pub fn changes(&self) -> &Changes {
+        &self.changes
     }
 
     fn lock(&self) -> MutexGuard<'_, Kept<J>> {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
+use crate::changes::Changes;
 use ferry_core::names::is_name;
 use ferry_core::policy::{MAX_BYTES, Policies, Policy, PolicyError, Shipped};
 use ferry_core::scenario::{AddedPolicy, RlPolicy};
@@ -57,17 +58,7 @@ pub struct Library {
     folder: PathBuf,
     /// Oldest first.
     added: RwLock<Vec<Added>>,
-    on_change: OnChange,
-}
-
-/// Called after each change of the list.
-#[derive(Default)]
-struct OnChange(Option<Box<dyn Fn() + Send + Sync>>);
-
-impl std::fmt::Debug for OnChange {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("OnChange")
-    }
+    changes: Changes,
 }
 
 /// Whether an added policy may have this name.
@@ -76,9 +67,8 @@ pub fn is_added(name: &str) -> bool {
 }
 
 impl Library {
-    /// The policies kept in a folder. Files that are no policies are logged and left alone. `on_change` is called after
-    /// each change of the list.
-    pub fn in_folder(folder: PathBuf, on_change: impl Fn() + Send + Sync + 'static) -> Self {
+    /// The policies kept in a folder. Files that are no policies are logged and left alone.
+    pub fn in_folder(folder: PathBuf) -> Self {
         let mut files: Vec<_> = std::fs::read_dir(&folder)
             .into_iter()
             .flatten()
@@ -98,7 +88,7 @@ impl Library {
                 (_, opened) => tracing::warn!(path = %path.display(), error = ?opened.err(), "policy left out"),
             }
         }
-        Self { folder, added: RwLock::new(added), on_change: OnChange(Some(Box::new(on_change))) }
+        Self { folder, added: RwLock::new(added), changes: Changes::default() }
     }
 
     /// All added policies, oldest first.
@@ -160,7 +150,7 @@ impl Library {
         let one = Added { name: name.to_owned(), policy, origin: origin.map(Into::into) };
         added.push(one.clone());
         drop(added);
-        self.changed();
+        self.changes.note();
         Ok(one)
     }
 
@@ -182,7 +172,7 @@ impl Library {
         }
         let renamed = added[index].clone();
         drop(added);
-        self.changed();
+        self.changes.note();
         Ok(renamed)
     }
 
@@ -201,7 +191,7 @@ impl Library {
         let _ = std::fs::remove_file(self.path(name).with_extension("json"));
         added.remove(index);
         drop(added);
-        self.changed();
+        self.changes.note();
         Ok(())
     }
 
@@ -218,10 +208,9 @@ impl Library {
         self.added.read().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn changed(&self) {
-        if let Some(tell) = &self.on_change.0 {
-            tell();
-        }
+    /// Those of the list.
+    pub fn changes(&self) -> &Changes {
+        &self.changes
     }
 }
 
@@ -267,7 +256,7 @@ mod tests {
     #[test]
     fn an_added_policy_is_found_by_name_and_hash_and_kept() {
         let folder = tempfile::tempdir().unwrap();
-        let library = Library::in_folder(folder.path().join("policies"), || ());
+        let library = Library::in_folder(folder.path().join("policies"));
         let added = library.add("mine", &file(), Some("{}".into())).unwrap();
         let full = library.resolve(&reference("mine")).unwrap();
         assert_eq!(full, added.reference());
@@ -276,12 +265,12 @@ mod tests {
         assert!(library.find(&reference("mine")).is_err(), "the name is free");
         assert_eq!(library.find(&full).unwrap().hash(), added.policy.hash(), "the hash is still the same");
         assert!(library.resolve(&full).unwrap().to_string().starts_with("yours@"));
-        let again = Library::in_folder(folder.path().join("policies"), || ());
+        let again = Library::in_folder(folder.path().join("policies"));
         assert_eq!(again.all()[0].name, "yours");
         assert_eq!(again.all()[0].origin.as_deref(), Some("{}"));
         again.remove("yours").unwrap();
         assert!(again.find(&full).is_err());
-        assert!(Library::in_folder(folder.path().join("policies"), || ()).added().is_empty());
+        assert!(Library::in_folder(folder.path().join("policies")).added().is_empty());
         assert_eq!(std::fs::read_dir(folder.path().join("policies")).unwrap().count(), 0);
         // Also if its file is gone.
         library.add("mine", &file(), None).unwrap();
@@ -293,7 +282,7 @@ mod tests {
     #[test]
     fn refuses_names_and_files_and_keeps_nothing_then() {
         let folder = tempfile::tempdir().unwrap();
-        let library = Library::in_folder(folder.path().to_owned(), || ());
+        let library = Library::in_folder(folder.path().to_owned());
         library.add("mine", &file(), None).unwrap();
         assert!(matches!(library.add("mine", &file(), None), Err(LibraryError::Taken { .. })));
         for name in ["auto", "colon", "explorer", "", "-a", "../x", "A b"] {

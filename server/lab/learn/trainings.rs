@@ -14,6 +14,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::library::Library;
 use super::sweep::{STEP_M, cells};
+use crate::changes::Changes;
 use crate::jobs::{Queue, QueueError};
 use ferry_core::map::{self, Map, READER};
 use ferry_core::policy::Policy;
@@ -51,6 +52,7 @@ pub struct Trainings {
     maps: Arc<map::Library>,
     policies: Arc<Library>,
     kept: Mutex<Kept>,
+    changes: Changes,
 }
 
 #[derive(Default)]
@@ -77,7 +79,8 @@ impl Trainings {
             .collect();
         numbers.sort_unstable();
         let last = numbers.last().copied().unwrap_or(0);
-        let trainings = Self { folder, sweeps, queue, maps, policies, kept: Mutex::default() };
+        let trainings =
+            Self { folder, sweeps, queue, maps, policies, kept: Mutex::default(), changes: Changes::default() };
         let restored: Vec<_> = numbers.into_iter().filter_map(|number| trainings.restore(number)).collect();
         for training in &restored {
             let stage = training.status().stage;
@@ -112,7 +115,7 @@ impl Trainings {
 
     fn training(&self, id: String, record: Record, map: Map, history: (Option<Cells>, Vec<Frame>)) -> Arc<Training> {
         let folders = [self.folder.join(&id), self.sweeps.clone()];
-        Training::new(id, record, map, folders, self.policies.clone(), history)
+        Training::new(id, record, map, folders, self.policies.clone(), history, self.changes.clone())
     }
 
     /// Adds a training.
@@ -153,6 +156,8 @@ impl Trainings {
         kept.last = number;
         kept.trainings.push(training.clone());
         kept.prune();
+        drop(kept);
+        self.changes.note();
         Ok(training)
     }
 
@@ -192,6 +197,12 @@ impl Trainings {
     pub fn remove(&self, training: &Training) {
         folder::remove(&training.folder);
         self.lock().trainings.retain(|one| one.id != training.id);
+        self.changes.note();
+    }
+
+    /// Those of the list.
+    pub fn changes(&self) -> &Changes {
+        &self.changes
     }
 
     fn lock(&self) -> MutexGuard<'_, Kept> {

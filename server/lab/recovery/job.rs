@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Cell, Findings, Recovery, RecoveryError, RecoveryQuery, Start, unrecorded};
+use crate::changes::Changes;
 use crate::evaluate::EvaluateError;
 use crate::jobs::{Life, Queue, QueueError, Shelf, Shelved, Stage, Workshop};
 use ferry_core::scenario::ControllerName;
@@ -102,5 +103,10 @@ impl Recoveries {
 
     pub fn all(&self) -> Vec<Arc<RecoveryJob>> {
         self.0.all()
+    }
+
+    /// Those of the list.
+    pub fn changes(&self) -> &Changes {
+        self.0.changes()
     }
 }

@@ -116,7 +116,7 @@ export const DRAW: Section = {
         await lab.reset({ map: 'posts' });
         const { origin } = new URL(lab.page.url());
         expect((await lab.page.request.delete(`${origin}/api/maps/${name}`)).status()).toBe(204);
-        await until('the removal of the map', () => !lab.scene.maps.includes(name));
+        await until('the removal of the map', () => lab.lists.maps?.includes(name) === false);
       },
     },
   },

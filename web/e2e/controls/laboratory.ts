@@ -183,7 +183,7 @@ export const EXPERIMENTS: Section = {
         const { origin } = new URL(lab.page.url());
         const removed = await lab.page.request.delete(`${origin}/api/maps/${name}`);
         expect(removed.status()).toBe(204);
-        await until('the removal of the map', () => !lab.scene.maps.includes(name));
+        await until('the removal of the map', () => lab.lists.maps?.includes(name) === false);
       },
     },
     'button Dismiss the report': {

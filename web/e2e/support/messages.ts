@@ -3,6 +3,7 @@
 import type { Page, WebSocket } from '@playwright/test';
 import { must } from './wait';
 import type {
+  CatalogMessage,
   ClientMessage,
   ComparisonMessage,
   EventMessage,
@@ -23,6 +24,10 @@ export class Messages {
   readonly events: EventMessage[] = [];
   overlay: OverlayMessage | undefined;
   comparison: ComparisonMessage | undefined;
+  /** The newest items of each list of the server. */
+  readonly lists: {
+    -readonly [N in CatalogMessage['list']]?: Extract<CatalogMessage, { list: N }>['items'];
+  } = {};
   private lastSeen: SeenMessage | undefined;
   private lastHello: Hello | undefined;
   private lastScene: SceneMessage | undefined;
@@ -90,6 +95,9 @@ export class Messages {
         break;
       case 'comparison':
         this.comparison = message;
+        break;
+      case 'catalog':
+        Object.assign(this.lists, { [message.list]: message.items });
         break;
       case 'event':
         this.events.push(message);

@@ -1,6 +1,7 @@
 // The types of the messages. This is the only import from the page's sources.
 
 export type {
+  CatalogMessage,
   ClientMessage,
   ComparisonMessage,
   ControllerName,

@@ -130,7 +130,7 @@ export function Page(): JSX.Element {
           />
         </Match>
         <Match when={view() === 'recordings'}>
-          <LazyRecordingsView theme={theme} session={lab.session} />
+          <LazyRecordingsView theme={theme} session={lab.session} tick={lab.state()?.tick} />
         </Match>
         <Match when={view() === 'evaluate'}>
           <LazyEvaluateView

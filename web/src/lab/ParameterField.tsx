@@ -176,7 +176,7 @@ export function createForm(lab: Session & Trial, scene: () => SceneMessage): For
     values: () => lab.edits.values() ?? scene().parameters,
     defaults: () => scene().defaults,
     disabled: () => !lab.canOperate(),
-    policies: () => scene().policies,
+    policies: lab.catalog.addedPolicies,
     idle: (name) =>
       name === 'tool_orientation' && scene().positioner === 'planar_stage'
         ? 'The planar stage always holds the magnet upright.'

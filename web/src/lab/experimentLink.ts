@@ -46,7 +46,9 @@ export interface Experiment {
 }
 
 /** Maps, controllers and defaults of this server, to check a link. */
-export type Known = Pick<SceneMessage, 'maps' | 'controllers' | 'defaults'>;
+export interface Known extends Pick<SceneMessage, 'controllers' | 'defaults'> {
+  readonly maps: readonly string[];
+}
 
 /** The parts of an experiment that can change while it runs, from a `StateMessage`. */
 export interface Chosen {

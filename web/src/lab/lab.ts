@@ -12,6 +12,7 @@ import {
 } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
 import { type Answer, Commands, type Streamed } from './commands';
+import { createCatalog } from './catalog';
 import { createComparison } from './comparison';
 import { createContest } from './contest';
 import { createEdits } from './edits';
@@ -116,7 +117,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
           const place = commands.placeOf(message.id);
           if (place) take({ type: 'refused', place, refusal: message });
         }
-        take({ type: 'message', message });
+        if (!feed.take(message)) take({ type: 'message', message });
       },
       picture: (picture) => {
         pictures.set(picture.kind, picture);
@@ -136,6 +137,10 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   const canOperate = createMemo(
     () => connection().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
   );
+  // A refusal needs no notice: the training is gone, and so it is from the list.
+  const feed = createCatalog(connection, (training) => {
+    socket.send({ type: 'watch_training', training, id: 0 });
+  });
   const send = (at: Place, message: ClientMessage): Promise<Answer> => {
     take({ type: 'sent', place: at });
     if (message.type === 'fork') comparison.show();
@@ -165,6 +170,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     isReturning: () => keeper.isReturning(),
     send,
     stream,
+    catalog: feed.catalog,
     scene,
     state,
     goal: createGoal(state),

@@ -198,7 +198,9 @@ function withMessage(model: Model, message: ServerMessage): Model {
       if (message.again) return marked;
       return withLine(marked, message.kind, eventWords(message.what), message.sim_time_s, message);
     }
-    // For the page's commands.
+    // For the page's commands and lists.
+    case 'catalog':
+    case 'training_points':
     case 'done':
     case 'refused':
       return model;

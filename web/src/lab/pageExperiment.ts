@@ -16,6 +16,7 @@ import {
   type Reading,
 } from './experimentLink';
 import { drawnMap } from './drawingLink';
+import { knownBy } from './known';
 import type { Notices, Session, Trial } from './slices';
 import { takeControl } from './takeControl';
 
@@ -48,12 +49,12 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
   });
 
   // Controllers and defaults do not change while the server runs, but maps do.
-  const known = createMemo(() => lab.scene(), undefined, {
+  const known = createMemo(() => knownBy(lab), undefined, {
     equals: (a, b) => a?.maps.join() === b?.maps.join(),
   });
   const reading = createMemo<Reading>(() => {
-    const scene = known();
-    return scene ? experimentFrom(hash(), scene) : { kind: 'none' };
+    const now = known();
+    return now ? experimentFrom(hash(), now) : { kind: 'none' };
   });
   const requested = createMemo(() => {
     const now = reading();
@@ -64,13 +65,13 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     setWanted(false);
   };
   const send = async (experiment: Experiment): Promise<void> => {
-    const scene = untrack(lab.scene);
-    if (!scene) return;
+    const now = untrack(known);
+    if (!now) return;
     try {
       const { drawing } = experiment;
       const map =
-        drawing === null ? experiment.map : await drawnMap(experiment.map, drawing, scene.maps);
-      await lab.send('playback', loadMessage({ ...experiment, map }, scene.defaults));
+        drawing === null ? experiment.map : await drawnMap(experiment.map, drawing, now.maps);
+      await lab.send('playback', loadMessage({ ...experiment, map }, now.defaults));
     } catch (reason) {
       const why = reason instanceof Error ? reason.message : String(reason);
       lab.notify('playback', `The map of this link could not be added: ${why}`);
@@ -81,7 +82,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
   let isFirst = true;
   createEffect(() => {
     const experiment = requested();
-    if (!lab.scene() || lab.connection().kind !== 'live' || !lab.hello()) return;
+    if (!known() || lab.connection().kind !== 'live' || !lab.hello()) return;
     const may = lab.canOperate();
     // A reloaded page may be a viewer for a moment.
     if (experiment && may && (isFirst || lab.isReturning() || wanted())) {
@@ -108,9 +109,9 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
       void takeControl(lab);
     },
     async open(link) {
-      const scene = lab.scene();
-      if (!scene) return;
-      const read = experimentFrom(link, scene);
+      const now = known();
+      if (!now) return;
+      const read = experimentFrom(link, now);
       if (read.kind === 'experiment') await send(read.experiment);
       else if (read.kind === 'broken') lab.notify('playback', read.why);
     },

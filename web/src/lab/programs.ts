@@ -1,18 +1,16 @@
 // The programs outside of Ferry that are connected now.
 
 import { createMemo, type Accessor } from 'solid-js';
-import { createPoll } from '../net/poll';
-import type { Programs } from '../net/protocol.gen';
-
-/** They appear within a second. */
-const EVERY_MS = 700;
+import type { Catalog } from './catalog';
 
 /** Names of those that are connected, and of one that is in use, in order. */
-export function createPrograms(used: Accessor<string | undefined>): Accessor<readonly string[]> {
-  const programs = createPoll<Programs>('/api/controllers', () => EVERY_MS);
+export function createPrograms(
+  catalog: Catalog,
+  used: Accessor<string | undefined>,
+): Accessor<readonly string[]> {
   return createMemo<readonly string[]>(
     () => {
-      const connected = (programs.data()?.programs ?? []).filter((one) => one.is_connected);
+      const connected = (catalog.programs() ?? []).filter((one) => one.is_connected);
       const all = new Set(connected.map((one) => one.name));
       const own = used();
       if (own !== undefined) all.add(own);

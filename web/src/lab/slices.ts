@@ -4,6 +4,7 @@ import type { Accessor } from 'solid-js';
 import type { Picture } from '../net/connection';
 import type { ClientMessage, EventMessage, Parameters } from '../net/protocol.gen';
 import type { Answer, Streamed } from './commands';
+import type { Catalog } from './catalog';
 import type { Comparison } from './comparison';
 import type { Contest } from './contest';
 import type { Edits } from './edits';
@@ -33,6 +34,8 @@ export interface Session {
   send(at: Place, message: ClientMessage): Promise<Answer>;
   /** Sends what a hand does, which has no answer. */
   stream(message: Streamed): void;
+  /** The lists of the server. */
+  readonly catalog: Catalog;
 }
 
 export interface Trial {

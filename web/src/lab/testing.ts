@@ -134,8 +134,6 @@ export function sceneOf(map: string, trial = 0): SceneMessage {
       disturbances: 0,
       script: [],
     },
-    maps: [map],
-    policies: [],
     positioner: 'arm',
     controllers: ['rl', 'errt', 'attractor'],
     workspace: { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 },

@@ -9,6 +9,7 @@ import { createRoot, type JSX } from 'solid-js';
 import { render } from 'solid-js/web';
 import { afterEach, vi } from 'vitest';
 import {
+  type CatalogMessage,
   type ClientMessage,
   type Hello,
   PROTOCOL_VERSION,
@@ -41,6 +42,8 @@ const HELLO: Hello = {
   resumed_s: null,
 };
 
+type Lists = { readonly [M in CatalogMessage as M['list']]?: M['items'] };
+
 /** What the server answers when it refuses a request. */
 export function refusal(detail: string, field?: string): Response {
   return Response.json({ detail, field }, { status: 422 });
@@ -55,6 +58,15 @@ export class FakeServer {
   readonly requests: string[] = [];
   private scenes = sceneOf('posts');
   private states = stateAt(0, { running: false });
+  private listed: Lists = {
+    maps: ['posts'],
+    policies: [],
+    trainings: [],
+    evaluations: [],
+    recoveries: [],
+    programs: [],
+    challenges: [],
+  };
   private socket: FakeSocket | undefined;
 
   /** `answers` by method and path, without the query. A request that is not in it waits forever. */
@@ -84,6 +96,12 @@ export class FakeServer {
   state(change: Partial<StateMessage> = {}): void {
     this.states = { ...this.states, ...change };
     this.tell({ type: 'state', ...this.states });
+  }
+  /** The lists that are named have these items now. */
+  lists(change: Lists): void {
+    this.listed = { ...this.listed, ...change };
+    for (const [list, items] of Object.entries(change))
+      this.tell({ type: 'catalog', list, items } as ServerMessage);
   }
   /** Carries out the newest `load_scenario`. */
   load(): void {
@@ -120,6 +138,7 @@ export class FakeServer {
     this.hello();
     this.scene();
     this.state();
+    this.lists(this.listed);
   }
   disconnect(): void {
     const { socket } = this;

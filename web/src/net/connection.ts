@@ -30,7 +30,7 @@ export interface Connection {
 type Page = Pick<Location, 'protocol' | 'host'>;
 
 /** Address of a WebSocket on the host that served the page. */
-export function socketAddress({ protocol, host }: Page, path: string): string {
+function socketAddress({ protocol, host }: Page, path: string): string {
   return `${protocol === 'https:' ? 'wss:' : 'ws:'}//${host}${addressOf(path)}`;
 }
 

@@ -11,7 +11,7 @@ export function createDetail<S extends { readonly id: string }, D extends S>(
 ): Accessor<D | undefined> {
   const [detail, setDetail] = createSignal<D>();
   let pending: string | undefined;
-  // Each poll of the list requests the details again if the last answer did not arrive.
+  // Each message with the list requests the details again if the last answer did not arrive.
   createEffect(() => {
     const now = summary();
     const had = detail();
@@ -27,7 +27,7 @@ export function createDetail<S extends { readonly id: string }, D extends S>(
       .then((answer) => {
         if (pending === requested) setDetail(() => answer);
       })
-      // The list shows the reason of a failure.
+      // The next message with the list tries again.
       .catch(() => undefined)
       .finally(() => {
         if (pending === requested) pending = undefined;

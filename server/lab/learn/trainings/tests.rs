@@ -18,7 +18,7 @@ impl Laboratory {
     fn in_folder(folder: &Path) -> Self {
         let gpu = Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter");
         let queue = Arc::new(Queue::start(gpu).unwrap());
-        let policies = Arc::new(Library::in_folder(folder.join("policies"), || ()));
+        let policies = Arc::new(Library::in_folder(folder.join("policies")));
         let sweeps = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("target/test-output/sweeps");
         let trainings =
             Trainings::in_folder(folder.join("trainings"), sweeps, queue.clone(), Arc::default(), policies.clone());

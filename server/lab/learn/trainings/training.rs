@@ -11,6 +11,7 @@ use super::folder::{self, Record};
 use super::frame::{Cells, Frame};
 use super::query::{QueryError, TrainingQuery};
 use super::stage::TrainingStage;
+use crate::changes::Changes;
 use crate::jobs::{Job, Workshop};
 use crate::learn::curve::Curve;
 use crate::learn::error::TrainingError;
@@ -59,8 +60,6 @@ pub struct Origin {
 #[derive(Clone, Debug)]
 pub struct Status {
     pub stage: TrainingStage,
-    /// Increases with each change.
-    pub version: u64,
     pub elapsed_s: f64,
     /// Estimated time until the end of learning.
     pub left_s: Option<f64>,
@@ -87,6 +86,8 @@ pub struct Training {
     sweeps: PathBuf,
     policies: Arc<Library>,
     status: Mutex<Status>,
+    /// Those of the list.
+    changes: Changes,
 }
 
 impl Training {
@@ -97,11 +98,11 @@ impl Training {
         folders: [PathBuf; 2],
         policies: Arc<Library>,
         (cells, frames): (Option<Cells>, Vec<Frame>),
+        changes: Changes,
     ) -> Arc<Self> {
         let Record { query, updates_total, stage, elapsed_s, points, examined, policy, reader: _ } = record;
         let status = Status {
             stage,
-            version: 0,
             elapsed_s,
             left_s: None,
             points,
@@ -112,16 +113,15 @@ impl Training {
             wish: Wish::GoOn,
         };
         let [folder, sweeps] = folders;
-        Arc::new(Self { id, query, updates_total, map, folder, sweeps, policies, status: Mutex::new(status) })
+        Arc::new(Self { id, query, updates_total, map, folder, sweeps, policies, status: Mutex::new(status), changes })
     }
 
     pub fn status(&self) -> Status {
         self.lock().clone()
     }
 
-    /// Number of the newest change.
-    pub fn version(&self) -> u64 {
-        self.lock().version
+    pub fn points(&self) -> Vec<Point> {
+        self.lock().points.clone()
     }
 
     /// Whether it keeps its policy's name for itself.
@@ -203,9 +203,8 @@ impl Training {
     }
 
     fn change(&self, change: impl FnOnce(&mut Status)) {
-        let mut status = self.lock();
-        change(&mut status);
-        status.version += 1;
+        change(&mut self.lock());
+        self.changes.note();
     }
 
     fn lock(&self) -> MutexGuard<'_, Status> {

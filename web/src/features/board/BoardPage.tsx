@@ -11,7 +11,6 @@ import {
 } from 'solid-js';
 import { playQuery } from '../../lab/challenges';
 import { loggedOut } from '../../net/access';
-import { createPoll } from '../../net/poll';
 import type { ChallengeReport, Challenges, ChallengeSummary } from '../../net/protocol.gen';
 import { counted, fixed } from '../../ui/format';
 import { createTheme } from '../../ui/theme';
@@ -30,6 +29,7 @@ import {
   rowsOf,
 } from './entries';
 import { createBoard } from './live';
+import { createPoll } from './poll';
 import { shownName } from '../../ui/name';
 import './board.css';
 import { addressOf } from '../../net/base';

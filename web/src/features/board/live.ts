@@ -1,7 +1,7 @@
 // A board that is read again and again, with the entries that are new.
 
 import { createEffect, createSignal, on, onCleanup, type Accessor } from 'solid-js';
-import { createPoll } from '../../net/poll';
+import { createPoll } from './poll';
 import type { ChallengeReport } from '../../net/protocol.gen';
 import { Refusal } from '../../net/requests';
 import { added, keyOf } from './entries';
@@ -26,7 +26,7 @@ export function createBoard(name: string): LiveBoard {
   const path = `/api/challenges/${encodeURIComponent(name)}`;
   const isWrong = (reason: unknown): boolean =>
     reason instanceof Refusal && reason.status === NOT_FOUND;
-  const { data, error } = createPoll<ChallengeReport>(path, (_, reason) =>
+  const { data, error } = createPoll<ChallengeReport>(path, (reason) =>
     isWrong(reason) ? REFUSED_MS : POLL_MS,
   );
   const [fresh, setFresh] = createSignal<ReadonlySet<string>>(new Set());

@@ -3,15 +3,13 @@
 import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
 import { DIFFICULTY_LABELS, PERIOD_LABELS } from '../../lab/challenges';
 import type { Contested, Session } from '../../lab/slices';
-import { createPoll } from '../../net/poll';
-import type { Challenges, ChallengeSummary, DifficultyName, Period } from '../../net/protocol.gen';
+import type { ChallengeSummary, DifficultyName, Period } from '../../net/protocol.gen';
 import { counted, seconds } from '../../ui/format';
 import { OwnSession } from './OwnSession';
 import { challengeTitle, seedFault } from './words';
 import { shownName } from '../../ui/name';
 import { addressOf } from '../../net/base';
 
-const POLL_MS = 10_000;
 const ORDER: readonly Period[] = ['day', 'week'];
 
 /** `Ada 14.2 s · 3 players`. */
@@ -110,9 +108,8 @@ function OwnSeed(props: { isDisabled: boolean; onPlay: (name: string) => void })
 
 export function ChallengeList(props: { lab: Session & Contested }): JSX.Element {
   const { lab } = props;
-  const poll = createPoll<Challenges>('/api/challenges', () => POLL_MS);
   const of = (period: Period | null): readonly ChallengeSummary[] =>
-    (poll.data()?.challenges ?? []).filter((one) => one.period === period);
+    (lab.catalog.challenges() ?? []).filter((one) => one.period === period);
   const play = (name: string): void => {
     void lab.contest.play(name);
   };
@@ -125,7 +122,6 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
       <Show when={!lab.canOperate()}>
         <OwnSession />
       </Show>
-      <Show when={poll.error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
       <div class="challenge-columns">
         <For each={ORDER}>
           {(period) => (

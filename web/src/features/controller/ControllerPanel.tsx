@@ -56,7 +56,7 @@ function ControllerChoice(props: {
     const state = lab.state();
     return state?.controller === 'program' ? state.program?.name : undefined;
   });
-  const names = createPrograms(program);
+  const names = createPrograms(lab.catalog, program);
   const chosen = createPending<Choice>(
     () => {
       const [controller, name] = [lab.state()?.controller ?? 'rl', program()];

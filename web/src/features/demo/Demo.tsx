@@ -1,13 +1,14 @@
 // The demonstration: runs the programme, shows its captions, and gives way to a visitor.
 
 import { Show, createEffect, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
-import { experimentFrom, loadMessage } from '../../lab/experimentLink';
+import { experimentFrom, type Known, loadMessage } from '../../lab/experimentLink';
+import { knownBy } from '../../lab/known';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { Answer } from '../../lab/commands';
 import { isOver } from '../../lab/contest';
 import type { Contested, Notices, Session, Trial } from '../../lab/slices';
 import { openPage } from '../../net/access';
-import type { ControllerName, SceneMessage } from '../../net/protocol.gen';
+import type { ControllerName } from '../../net/protocol.gen';
 import {
   CARRIERS,
   PROGRAMME,
@@ -75,19 +76,19 @@ export function Demo(props: {
   };
   const isContest = (): boolean => PROGRAMME[place().part]?.link === undefined;
 
-  const load = ({ link, speed }: Part, scene: SceneMessage): Promise<Answer> => {
+  const load = ({ link, speed }: Part, known: Known): Promise<Answer> => {
     if (link === undefined) return play();
-    const read = experimentFrom(link, scene);
+    const read = experimentFrom(link, known);
     if (read.kind !== 'experiment') throw new Error(`the programme has a broken link: ${link}`);
-    const loaded = lab.send('workspace', loadMessage(read.experiment, scene.defaults));
+    const loaded = lab.send('workspace', loadMessage(read.experiment, known.defaults));
     void lab.send('workspace', { type: 'set_speed', factor: speed });
     run();
     return loaded;
   };
   const setUp = async (): Promise<void> => {
-    const [scene, part] = [lab.scene(), PROGRAMME[place().part]];
-    if (!scene || !part) return;
-    const asked = load(part, scene);
+    const [known, part] = [knownBy(lab), PROGRAMME[place().part]];
+    if (!known || !part) return;
+    const asked = load(part, known);
     own = asked;
     const answer = await asked;
     // A part that was refused is left after its time.

@@ -78,7 +78,7 @@ export function SidePanel(props: {
             A map…
           </option>
           <option value="">an empty workspace</option>
-          <For each={lab.scene()?.maps}>{(map) => <option value={map}>{map}</option>}</For>
+          <For each={lab.catalog.maps()}>{(map) => <option value={map}>{map}</option>}</For>
         </select>
         <FileButton
           accept=".svg,image/svg+xml"
@@ -121,7 +121,7 @@ export function SidePanel(props: {
           disabled={isOff()}
           title="Adds the drawing to the server's maps and starts a trial on it"
           onClick={() => {
-            void props.onSave(fileOf(freeName(plainName(), lab.scene()?.maps ?? [])));
+            void props.onSave(fileOf(freeName(plainName(), lab.catalog.maps() ?? [])));
           }}
         >
           Save and use

@@ -4,7 +4,6 @@ import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type { Theme } from '../../ui/theme';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
-import { createEvaluationList } from './evaluations';
 import { episodesDone, episodesInAll, isActive, numberOf, stageWords, subject } from './progress';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import type { Session, Trial } from '../../lab/slices';
@@ -46,8 +45,8 @@ export interface EvaluateProps {
 }
 
 export function EvaluateView(props: EvaluateProps): JSX.Element {
-  const list = createEvaluationList();
-  const all = (): readonly EvaluationSummary[] => list.all() ?? [];
+  const { catalog } = props.lab;
+  const all = (): readonly EvaluationSummary[] => catalog.evaluations() ?? [];
   const ids = createMemo(() => all().map(({ id }) => id), [], {
     equals: (a, b) => a.join() === b.join(),
   });
@@ -62,15 +61,12 @@ export function EvaluateView(props: EvaluateProps): JSX.Element {
           <header class="panel-head">
             <h2>New evaluation</h2>
           </header>
-          <EvaluationForm lab={props.lab} list={list} measured={all()} onStarted={setChosen} />
+          <EvaluationForm lab={props.lab} measured={all()} onStarted={setChosen} />
         </section>
         <section class="panel" aria-label="Evaluations">
           <header class="panel-head">
             <h2>Evaluations</h2>
           </header>
-          <div role="alert">
-            <Show when={list.trouble()}>{(text) => <p class="refusal">{text()}</p>}</Show>
-          </div>
           <div class="evaluation-entries">
             <For each={ids().toReversed()}>
               {(id) => (
@@ -79,7 +75,7 @@ export function EvaluateView(props: EvaluateProps): JSX.Element {
                 </Show>
               )}
             </For>
-            <Show when={list.all()?.length === 0}>
+            <Show when={catalog.evaluations()?.length === 0}>
               <p class="placeholder">
                 No evaluations yet. The server keeps the last 16 until it is stopped.
               </p>
@@ -102,7 +98,6 @@ export function EvaluateView(props: EvaluateProps): JSX.Element {
         {(summary) => (
           <EvaluationPanel
             lab={props.lab}
-            list={list}
             summary={summary()}
             theme={props.theme}
             onLaboratory={props.onLaboratory}

@@ -3,7 +3,6 @@ import { page, userEvent } from 'vitest/browser';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
 import type { EvaluationQuery } from '../../net/protocol.gen';
 import { setDraft } from './draft';
-import { createEvaluationList } from './evaluations';
 import { EvaluationForm } from './EvaluationForm';
 import { PAPERS } from './request';
 import { summaryOf } from './testing';
@@ -14,17 +13,11 @@ const box = (name: string) => page.getByRole('checkbox', { name, exact: true });
 async function open(answer: (query: EvaluationQuery) => unknown) {
   setDraft(PAPERS);
   const { lab, server } = fakeLab({
-    'GET /api/evaluations': () => ({ evaluations: [] }),
     'POST /api/evaluations': (body) => answer(JSON.parse(body) as EvaluationQuery),
   });
   const started: string[] = [];
-  show(() => {
-    const list = createEvaluationList();
-    return (
-      <EvaluationForm lab={lab} list={list} measured={[]} onStarted={(id) => started.push(id)} />
-    );
-  });
-  server.scene({ maps: ['posts', 'colon'] });
+  show(() => <EvaluationForm lab={lab} measured={[]} onStarted={(id) => started.push(id)} />);
+  server.lists({ maps: ['posts', 'colon'] });
   await expect.element(box('posts')).toBeVisible();
   await expect.element(run).toBeEnabled();
   return { server, started };

@@ -13,7 +13,7 @@ import type { EvaluationSummary } from '../../net/protocol.gen';
 import { Refusal } from '../../net/requests';
 import { roughly } from '../../ui/format';
 import { NumberInput } from '../../ui/NumberInput';
-import type { EvaluationList } from './evaluations';
+import { startEvaluation } from './evaluations';
 import { draft, setDraft } from './draft';
 import {
   chooseControllers,
@@ -142,14 +142,13 @@ function Whole(props: {
 
 export function EvaluationForm(props: {
   lab: Session & Trial;
-  list: EvaluationList;
   measured: readonly EvaluationSummary[];
   onStarted: (id: string) => void;
 }): JSX.Element {
   const { lab } = props;
   const [faults, setFaults] = createSignal<Faults>({});
   const [busy, setBusy] = createSignal(false);
-  const programs = createPrograms(() => draft().program || undefined);
+  const programs = createPrograms(lab.catalog, () => draft().program || undefined);
   // A changed field loses its error message.
   const change = (field: Field, part: Partial<Draft>): void => {
     setDraft({ ...draft(), ...part });
@@ -171,7 +170,7 @@ export function EvaluationForm(props: {
     setFaults({});
     setBusy(true);
     try {
-      props.onStarted(await props.list.start(made.query));
+      props.onStarted(await startEvaluation(made.query));
     } catch (reason) {
       setFaults(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
     } finally {
@@ -200,7 +199,7 @@ export function EvaluationForm(props: {
       />
       <Show when={draft().controllers.includes('rl')}>
         <Policy
-          added={lab.scene()?.policies ?? []}
+          added={lab.catalog.addedPolicies()}
           value={draft().rl_policy}
           fault={faults().rl_policy}
           onInput={(rl_policy) => {
@@ -210,7 +209,7 @@ export function EvaluationForm(props: {
       </Show>
       <Choice
         legend="Maps"
-        all={lab.scene()?.maps ?? []}
+        all={lab.catalog.maps() ?? []}
         chosen={draft().maps}
         fault={faults().maps}
         onChoose={(maps) => {

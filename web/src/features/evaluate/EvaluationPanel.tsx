@@ -5,7 +5,7 @@ import { roughly } from '../../ui/format';
 import type { Theme } from '../../ui/theme';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
-import { createReport, type EvaluationList } from './evaluations';
+import { cancelEvaluation, createReport } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
 import { LazyRobustnessPlots } from './LazyRobustnessPlots';
@@ -54,7 +54,6 @@ function Progress(props: {
 
 export function EvaluationPanel(props: {
   lab: Session & Trial;
-  list: EvaluationList;
   summary: EvaluationSummary;
   theme: () => Theme;
   onLaboratory: () => void;
@@ -69,11 +68,11 @@ export function EvaluationPanel(props: {
     ),
   );
   const said = createMemo(() => milestone(props.summary));
-  const measured = (): readonly EvaluationSummary[] => props.list.all() ?? [];
+  const measured = (): readonly EvaluationSummary[] => lab.catalog.evaluations() ?? [];
   const cancel = async (): Promise<void> => {
     setRefusal(undefined);
     try {
-      await props.list.cancel(props.summary.id);
+      await cancelEvaluation(props.summary.id);
     } catch (reason) {
       setRefusal(reason instanceof Error ? reason.message : String(reason));
     }

@@ -36,7 +36,7 @@ describe('the key', () => {
   it('changes only with the goal and the parameters', () => {
     const scene = sceneOf('posts');
     const key = flowKey(scene, [1, 2, 0]);
-    expect(flowKey({ ...scene, maps: [] }, [1, 2, 0])).toBe(key);
+    expect(flowKey({ ...scene, kept_runs: [] }, [1, 2, 0])).toBe(key);
     expect(flowKey(scene, [1, 3, 0])).not.toBe(key);
     const parameters = { ...scene.parameters, attractor_gain: 3 };
     expect(flowKey({ ...scene, parameters }, [1, 2, 0])).not.toBe(key);

@@ -10,7 +10,7 @@ it('ends the settings of a lesson with it', async () => {
   const { lab, server } = fakeLab();
   show(() => <LessonsPanel lab={lab} />);
   await expect.poll(() => lab.state()).toBeDefined();
-  server.scene({ maps: ['posts', 'colon', 'open'] });
+  server.lists({ maps: ['posts', 'colon', 'open'] });
   await button(/^The law to the letter/).click();
   await page.getByRole('radio').first().click();
   await button('Next').click();
@@ -26,7 +26,7 @@ it('counts a lesson that was read to its end, whether it is finished or left', a
   const { lab, server } = fakeLab();
   show(() => <LessonsPanel lab={lab} />);
   await expect.poll(() => lab.state()).toBeDefined();
-  server.scene({ maps: ['posts', 'colon', 'open'] });
+  server.lists({ maps: ['posts', 'colon', 'open'] });
   await button(/^Meet the magnet/).click();
   await page.getByRole('radio').first().click();
   await button('Next').click();

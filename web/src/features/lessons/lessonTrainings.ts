@@ -2,14 +2,13 @@
 
 import { createMemo, createSignal, type Accessor } from 'solid-js';
 import { isActive } from '../../lab/trainingStage';
-import { createPoll } from '../../net/poll';
-import type { Examination, Policies, Trainings, TrainingSummary } from '../../net/protocol.gen';
-import { get, post, remove } from '../../net/requests';
+import type { Catalog } from '../../lab/catalog';
+import type { Examination, TrainingSummary } from '../../net/protocol.gen';
+import { post, remove } from '../../net/requests';
 import { isTrainingLesson, type Lesson, type TrainingRun } from './lesson';
 
 const MAP = 'u-turn';
 const SEED = 1;
-const POLL_MS = 1000;
 
 export interface LessonTrainings {
   /** One per run that was started. */
@@ -22,25 +21,17 @@ export interface LessonTrainings {
   start(index: number, run: TrainingRun): Promise<void>;
 }
 
-async function removePolicy(wanted: string): Promise<void> {
-  const { policies } = await get<Policies>('/api/policies');
-  if (policies.some(({ name }) => name === wanted)) await remove(`/api/policies/${wanted}`);
-}
-
-export function createLessonTrainings(lesson: Accessor<Lesson | undefined>): LessonTrainings {
+export function createLessonTrainings(
+  catalog: Catalog,
+  lesson: Accessor<Lesson | undefined>,
+): LessonTrainings {
   const [refusal, setRefusal] = createSignal<string>();
   /** Ids by run; empty again in another lesson. */
   const ids = createMemo(() => {
     lesson();
     return createSignal<readonly (string | undefined)[]>([]);
   });
-  const poll = createMemo(() => {
-    const now = lesson();
-    return now && isTrainingLesson(now)
-      ? createPoll<Trainings>('/api/trainings', () => POLL_MS)
-      : undefined;
-  });
-  const listed = (): readonly TrainingSummary[] => poll()?.data()?.trainings ?? [];
+  const listed = (): readonly TrainingSummary[] => catalog.trainings() ?? [];
   const summaries = createMemo(() => {
     const [known] = ids();
     return known().map((id) => listed().find((one) => one.id === id));
@@ -61,14 +52,14 @@ export function createLessonTrainings(lesson: Accessor<Lesson | undefined>): Les
       setRefusal(undefined);
       try {
         const active = listed().find((one) => one.query.name === policy && isActive(one));
-        if (!active) await removePolicy(policy);
+        if (!active && catalog.policies()?.some(({ name }) => name === policy))
+          await remove(`/api/policies/${policy}`);
         const query = { map: MAP, name: policy, seed: SEED, settings, start_from: startFrom };
         const { id } =
           active ?? (await post<TrainingSummary>('/api/trainings', JSON.stringify(query)));
         const next = [...known()];
         next[index] = id;
         setKnown(next);
-        await poll()?.refresh();
       } catch (reason) {
         setRefusal(reason instanceof Error ? reason.message : String(reason));
       }

@@ -10,6 +10,7 @@ import {
   type Accessor,
 } from 'solid-js';
 import { experimentFrom, loadMessage } from '../../lab/experimentLink';
+import { knownBy } from '../../lab/known';
 import {
   allDone,
   isTrainingLesson,
@@ -80,7 +81,7 @@ function createLessons(lab: LessonsLab): Lessons {
     const now = lesson();
     return now && isTrainingLesson(now) ? now.trainings[step() - 1] : undefined;
   });
-  const trainings = createLessonTrainings(lesson);
+  const trainings = createLessonTrainings(lab.catalog, lesson);
   const track = createMemo(() => tracks()[step() - 1]);
   /** The scenario of the present run, as the server has set it up. A reset begins it again. */
   const [own, setOwn] = createSignal<string>();
@@ -170,9 +171,9 @@ function createLessons(lab: LessonsLab): Lessons {
       if (now) keep({ ...progress(), choices: { ...progress().choices, [now.id]: choice } });
     },
     async setUp() {
-      const [here, scene] = [run(), lab.scene()];
-      if (!here || !scene) return;
-      const read = experimentFrom(here.link, scene);
+      const [here, scene, known] = [run(), lab.scene(), knownBy(lab)];
+      if (!here || !scene || !known) return;
+      const read = experimentFrom(here.link, known);
       if (read.kind !== 'experiment') return;
       before ??= { parameters: scene.parameters, speed: lab.state()?.speed_target ?? 1 };
       setTracks(tracks().map((old, index) => (index === step() - 1 ? undefined : old)));

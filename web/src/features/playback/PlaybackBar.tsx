@@ -140,10 +140,7 @@ export function PlaybackBar(props: {
     const all = [...new Set([...SPEEDS, target()])].sort((a, b) => a - b);
     return all.map((factor) => [String(factor), speedName(factor)] as const);
   });
-  const names = createMemo(() => lab.scene()?.maps ?? [], [], {
-    equals: (a, b) => a.join() === b.join(),
-  });
-  const maps = createMemo(() => names().map((name) => [name, name] as const));
+  const maps = createMemo(() => (lab.catalog.maps() ?? []).map((name) => [name, name] as const));
   return (
     <footer class="bar transport" role="region" aria-label="Playback">
       {props.above}

@@ -13,10 +13,12 @@ export interface RecordingsProps {
   readonly theme: Accessor<Theme>;
   /** The session of the page. */
   readonly session: string;
+  /** Its tick: it is recorded while it moves. */
+  readonly tick: number | undefined;
 }
 
 export function RecordingsView(props: RecordingsProps): JSX.Element {
-  const { list, error, refresh, rename, discard } = createRecordings();
+  const { list, error, refresh, rename, discard } = createRecordings(() => props.tick);
   const [open, setOpen] = createSignal<RecordingFile>();
   /** Why the last change was refused. */
   const [refusal, setRefusal] = createSignal<string>();

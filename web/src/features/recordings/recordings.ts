@@ -1,6 +1,6 @@
-// The list of recordings, polled while it is visible, changes to it, and the text of its entries.
+// The list of recordings, polled while the session's own recording grows, changes to it, and the text of its entries.
 
-import { createSignal, onCleanup, onMount, type Accessor } from 'solid-js';
+import { createEffect, createSignal, on, onCleanup, type Accessor } from 'solid-js';
 import { get, patch, remove } from '../../net/requests';
 import type { RecordingFile, RecordingList, RecordingTitle } from '../../net/protocol.gen';
 
@@ -67,8 +67,8 @@ export interface Recordings {
   readonly discard: (id: string, beforeRemoval: () => void) => Promise<void>;
 }
 
-/** The list, polled while the page is visible. */
-export function createRecordings(): Recordings {
+/** The list, read again when the page is shown, and while `moved` changes, which is what the session records. */
+export function createRecordings(moved: Accessor<unknown>): Recordings {
   const [list, setList] = createSignal<readonly RecordingFile[]>();
   const [error, setError] = createSignal<string>();
   let asking = false;
@@ -108,15 +108,28 @@ export function createRecordings(): Recordings {
   const whileVisible = (): void => {
     if (document.visibilityState === 'visible') refresh();
   };
-  onMount(() => {
-    refresh();
-    const timer = setInterval(whileVisible, REFRESH_MS);
-    document.addEventListener('visibilitychange', whileVisible);
-    onCleanup(() => {
-      closed = true;
-      clearInterval(timer);
-      document.removeEventListener('visibilitychange', whileVisible);
-    });
+  // The server writes about a second later what was recorded: the list is read once more than it has changed.
+  let left = 1;
+  createEffect(
+    on(
+      moved,
+      () => {
+        left = 2;
+      },
+      { defer: true },
+    ),
+  );
+  refresh();
+  const timer = setInterval(() => {
+    if (left === 0) return;
+    left -= 1;
+    whileVisible();
+  }, REFRESH_MS);
+  document.addEventListener('visibilitychange', whileVisible);
+  onCleanup(() => {
+    closed = true;
+    clearInterval(timer);
+    document.removeEventListener('visibilitychange', whileVisible);
   });
   return { list, error, refresh, rename, discard };
 }

@@ -7,7 +7,6 @@ import { RecoveryPanel } from './RecoveryPanel';
 it('sends what is chosen, and shows why the server refuses it', async () => {
   let query: RecoveryQuery | undefined;
   const { lab, server } = fakeLab({
-    'GET /api/recoveries': () => ({ recoveries: [] }),
     'POST /api/recoveries': (body) => {
       query = JSON.parse(body) as RecoveryQuery;
       return refusal(query.grid < 4 ? 'grid is 3, it must be 4 to 96' : 'no goal is set');
@@ -60,9 +59,9 @@ it('shows a recovery map of another map only when it is chosen, and says so', as
     differences: [],
   };
   const { lab, server } = fakeLab({
-    'GET /api/recoveries': () => ({ recoveries: [report] }),
     'GET /api/recoveries/recovery-1': () => report,
   });
+  server.lists({ recoveries: [report] });
   show(() => (
     <RecoveryPanel lab={lab} theme={() => 'dark'} tools={document.createElement('div')} />
   ));

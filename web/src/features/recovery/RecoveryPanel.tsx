@@ -184,7 +184,7 @@ function Earlier(props: {
 export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHand>): JSX.Element {
   const { lab } = props;
   const map = createMemo(() => lab.scene()?.map);
-  const list = createRecoveryList(map);
+  const list = createRecoveryList(lab.catalog, map);
   const report = createMemo(() => {
     const now = store.report();
     return now && now.id === list.shown()?.id ? now : undefined;

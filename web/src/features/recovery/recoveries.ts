@@ -1,20 +1,11 @@
-// The server's recovery maps, polled: often while one runs.
+// The recovery maps, and the cells of the one that is shown.
 
 import { createEffect, createMemo, on, type Accessor } from 'solid-js';
 import { createDetail } from '../../net/detail';
-import { createPoll } from '../../net/poll';
 import { post, remove } from '../../net/requests';
-import type {
-  Recoveries,
-  RecoveryQuery,
-  RecoveryReport,
-  RecoverySummary,
-} from '../../net/protocol.gen';
+import type { RecoveryQuery, RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
+import type { Catalog } from '../../lab/catalog';
 import { store } from './store';
-
-const BUSY_MS = 500;
-/** Another operator may start one. */
-const IDLE_MS = 3000;
 
 export const PATH = '/api/recoveries';
 
@@ -31,11 +22,11 @@ export interface RecoveryList {
 }
 
 /** The recovery maps; the store gets the cells of the one that is shown: the one that was chosen, otherwise the newest on `map`. */
-export function createRecoveryList(map: Accessor<string | undefined>): RecoveryList {
-  const poll = createPoll<Recoveries>(PATH, (newest) =>
-    newest?.recoveries.some(isActive) ? BUSY_MS : IDLE_MS,
-  );
-  const all = createMemo(() => poll.data()?.recoveries ?? []);
+export function createRecoveryList(
+  catalog: Catalog,
+  map: Accessor<string | undefined>,
+): RecoveryList {
+  const all = createMemo(() => catalog.recoveries() ?? []);
   const shown = createMemo(
     () =>
       all().find(({ id }) => id === store.wanted()) ?? all().findLast((one) => one.map === map()),
@@ -57,11 +48,7 @@ export function createRecoveryList(map: Accessor<string | undefined>): RecoveryL
       store.setWanted(id);
       store.setChosen(undefined);
       store.setArrangement('each');
-      await poll.refresh();
     },
-    cancel: async (id) => {
-      await remove(`${PATH}/${id}`);
-      await poll.refresh();
-    },
+    cancel: (id) => remove(`${PATH}/${id}`),
   };
 }

@@ -35,7 +35,7 @@ async function open() {
     );
   });
   await expect.element(button('Share')).toBeEnabled();
-  server.scene({ maps: ['posts', 'open', 'colon'] });
+  server.lists({ maps: ['posts', 'open', 'colon'] });
   return server;
 }
 

@@ -10,14 +10,13 @@ import type { Theme } from '../../ui/theme';
 import { PolicyRow } from './PolicyRow';
 import { policyOf } from './policyUse';
 import { nameFault } from './recipes';
-import type { PolicyList } from './trainings';
+import { discardPolicy, renamePolicy, uploadPolicy } from './trainings';
 import './policies.css';
 
 const ENDING = '.safetensors';
 
 export function PoliciesPanel(props: {
   lab: Session & Trial;
-  list: PolicyList;
   palette: () => Palette;
   theme: () => Theme;
   onUse: (policy: PolicySummary) => void;
@@ -25,14 +24,14 @@ export function PoliciesPanel(props: {
   const { lab } = props;
   /** Why the last change was refused. */
   const [refusal, setRefusal] = createSignal<string>();
-  const all = (): readonly PolicySummary[] => props.list.all() ?? [];
+  const all = (): readonly PolicySummary[] => lab.catalog.policies() ?? [];
   const names = createMemo(() => all().map(({ name }) => name), [], {
     equals: (a, b) => a.join() === b.join(),
   });
   const used = createMemo(() => policyOf(all(), lab.scene()?.parameters.rl_policy)?.name);
   const byName = (name: string): PolicySummary | undefined =>
     all().find((policy) => policy.name === name);
-  const attempt = async (change: () => Promise<void>): Promise<boolean> => {
+  const attempt = async (change: () => Promise<unknown>): Promise<boolean> => {
     setRefusal(undefined);
     try {
       await change();
@@ -46,12 +45,12 @@ export function PoliciesPanel(props: {
     attempt(async () => {
       const fault = nameFault(next);
       if (fault !== undefined) throw new Error(fault);
-      await props.list.rename(name, next);
+      await renamePolicy(name, next);
     });
   const upload = (file: File): Promise<boolean> =>
     attempt(() => {
       const wanted = mapName(file.name.replace(ENDING, '')) || 'policy';
-      return props.list.upload(freeName(wanted, names()), file);
+      return uploadPolicy(freeName(wanted, names()), file);
     });
   return (
     <section class="panel policies" aria-label="Policies">
@@ -73,9 +72,7 @@ export function PoliciesPanel(props: {
         </FileButton>
       </header>
       <div role="alert">
-        <Show when={refusal() ?? props.list.trouble()}>
-          {(text) => <p class="refusal">{text()}</p>}
-        </Show>
+        <Show when={refusal()}>{(text) => <p class="refusal">{text()}</p>}</Show>
       </div>
       <div class="policies-frame" tabindex="-1">
         <table>
@@ -113,7 +110,7 @@ export function PoliciesPanel(props: {
                         props.onUse(policy());
                       }}
                       onRename={(next) => rename(name, next)}
-                      onDelete={() => attempt(() => props.list.discard(name))}
+                      onDelete={() => attempt(() => discardPolicy(name))}
                     />
                   )}
                 </Show>

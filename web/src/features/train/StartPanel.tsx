@@ -1,7 +1,7 @@
 // The form for a new training.
 
 import { For, Show, createMemo, createSignal, createUniqueId, type JSX } from 'solid-js';
-import type { PolicySummary, RecipeName, TrainingSummary } from '../../net/protocol.gen';
+import type { PolicySummary, RecipeName } from '../../net/protocol.gen';
 import { Refusal } from '../../net/requests';
 import type { Session, Trial } from '../../lab/slices';
 import { Fault } from './Fault';
@@ -21,22 +21,19 @@ import {
   withSetting,
 } from './recipes';
 import type { TrainState } from './state';
-import type { TrainingList } from './trainings';
+import { startTraining } from './trainings';
 import { showWrongField } from './wrongField';
 
 interface StartProps {
   readonly lab: Session & Trial;
   readonly state: TrainState;
-  readonly list: TrainingList;
-  readonly trainings: readonly TrainingSummary[];
-  readonly policies: readonly PolicySummary[];
   /** The new training is shown. */
   readonly onStarted: () => void;
 }
 
 type Options = readonly (readonly [value: string, label: string])[];
 
-/** The lists are polled: options that stay the same must not be replaced while the user chooses. */
+/** Options that stay the same must not be replaced while the user chooses. */
 const sameOptions = { equals: (a: Options, b: Options) => a.join('\n') === b.join('\n') };
 
 export function StartPanel(props: StartProps): JSX.Element {
@@ -47,15 +44,16 @@ export function StartPanel(props: StartProps): JSX.Element {
   const [faults, setFaults] = createSignal<Faults>({});
   const [isBusy, setBusy] = createSignal(false);
   const draft = state.draft;
-  const maps = (): readonly string[] => lab.scene()?.maps ?? [];
+  const maps = (): readonly string[] => lab.catalog.maps() ?? [];
+  const policies = (): readonly PolicySummary[] => lab.catalog.policies() ?? [];
   const map = createMemo(() => {
     const wanted = draft().map;
     return wanted !== undefined && maps().includes(wanted) ? wanted : (lab.scene()?.map ?? '');
   });
   const name = createMemo(() => {
     const taken = [
-      ...props.policies.map((policy) => policy.name),
-      ...props.trainings.map(({ query }) => query.name),
+      ...policies().map((policy) => policy.name),
+      ...(lab.catalog.trainings() ?? []).map(({ query }) => query.name),
     ];
     return draft().name ?? suggestedName(map(), taken);
   });
@@ -63,7 +61,7 @@ export function StartPanel(props: StartProps): JSX.Element {
   const starts = createMemo<Options>(
     () => [
       ['', 'random weights'],
-      ...props.policies
+      ...policies()
         .filter(({ has_memory }) => !has_memory)
         .map((policy) => [policy.reference, policy.name] as const),
     ],
@@ -89,7 +87,7 @@ export function StartPanel(props: StartProps): JSX.Element {
     setFaults({});
     setBusy(true);
     try {
-      const id = await props.list.start(made.query);
+      const id = await startTraining(made.query);
       // The next one gets a name of its own.
       const { map, startFrom, recipe, settings, seed } = draft();
       const same = { startFrom, recipe, settings, seed };

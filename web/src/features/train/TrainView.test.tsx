@@ -11,8 +11,6 @@ const settings = page.getByText(/^Settings/);
 
 it('explains itself, and refuses a wrong name or setting at its field', async () => {
   const { lab, server } = fakeLab({
-    'GET /api/trainings': () => ({ trainings: [] }),
-    'GET /api/policies': () => ({ policies: [] }),
     'POST /api/trainings': () => refusal('name: a shipped policy is called general', 'name'),
   });
   const kept: TrainProps['kept'] = {};

@@ -1,6 +1,6 @@
 // The Train view: a policy learns a map, and you watch it.
 
-import { For, Show, createEffect, createMemo, createSignal, mapArray, type JSX } from 'solid-js';
+import { For, Show, createMemo, mapArray, type JSX } from 'solid-js';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { PolicySummary, TrainingSummary } from '../../net/protocol.gen';
 import { createPalette } from '../../ui/palette';
@@ -17,7 +17,6 @@ import { StartPanel } from './StartPanel';
 import { createTrainState, type TrainState } from './state';
 import { TrainingEntry } from './TrainingEntry';
 import { LayerToggles, Marks, Readings } from './TrainLegend';
-import { createPolicyList, createTrainingList } from './trainings';
 import { usePolicy } from './usePolicy';
 import { WatchPane } from './WatchPane';
 import './train.css';
@@ -43,10 +42,8 @@ function bringIntoView(view: HTMLElement, list: HTMLElement): void {
 export function TrainView(props: TrainProps): JSX.Element {
   const { lab } = props;
   const state = (props.kept.train ??= createTrainState());
-  const list = createTrainingList();
-  const policies = createPolicyList();
   const palette = createPalette(() => props.theme());
-  const all = (): readonly TrainingSummary[] => list.all() ?? [];
+  const all = (): readonly TrainingSummary[] => lab.catalog.trainings() ?? [];
   const sameIds = { equals: (a: string[], b: string[]) => a.join() === b.join() };
   const ids = createMemo(() => all().map(({ id }) => id), [], sameIds);
   const byId = (id: string | undefined): TrainingSummary | undefined =>
@@ -60,21 +57,21 @@ export function TrainView(props: TrainProps): JSX.Element {
     [],
     sameIds,
   );
+  const points = lab.catalog.watch(shown);
   const lives = createMemo(
     mapArray(watched, (id) => {
       // The last summary stays while the training is removed.
       const first = byId(id);
       if (!first) throw new Error(`${id} is not in the list`);
-      return createLive(createMemo<TrainingSummary>((last) => byId(id) ?? last, first));
+      const summary = createMemo<TrainingSummary>((last) => byId(id) ?? last, first);
+      return createLive(summary, () => (shown() === id ? points() : undefined));
     }),
   );
   const range = createMemo(() => colourRange(lives().map((live) => live.summary())), undefined, {
     equals: (a, b) => a?.join() === b?.join(),
   });
-  /** Until the list of policies has arrived, the policy is known by its training. */
-  const usable = (summary: TrainingSummary): Policy | undefined =>
-    trained(summary) ??
-    (summary.policy === null ? undefined : { name: summary.query.name, reference: summary.policy });
+  const trained = ({ policy }: TrainingSummary): PolicySummary | undefined =>
+    policyOf(lab.catalog.policies() ?? [], policy ?? undefined);
   const use = (policy: Policy, maps: readonly string[]): void => {
     void usePolicy(lab, policy, maps);
     props.onLaboratory();
@@ -93,24 +90,6 @@ export function TrainView(props: TrainProps): JSX.Element {
     const summary = byId(shown());
     return summary ? milestone(summary, before(summary.id)) : '';
   });
-  const finished = createMemo(() => all().filter(({ stage }) => stage === 'done').length);
-  /** Number of finished trainings whose policies can be in the list. */
-  const [listed, setListed] = createSignal(0);
-  // A finished training is a new policy.
-  createEffect(() => {
-    const now = finished();
-    if (now === 0) return;
-    void policies.refresh().then(() => {
-      if (now === finished()) setListed(now);
-    });
-  });
-  const trained = ({ policy }: TrainingSummary): PolicySummary | undefined =>
-    policyOf(policies.all() ?? [], policy ?? undefined);
-  const isDeleted = (summary: TrainingSummary): boolean =>
-    summary.policy !== null &&
-    policies.trouble() === undefined &&
-    listed() === finished() &&
-    trained(summary) === undefined;
   let view!: HTMLElement;
   let entries!: HTMLElement;
   return (
@@ -123,9 +102,6 @@ export function TrainView(props: TrainProps): JSX.Element {
           <StartPanel
             lab={lab}
             state={state}
-            list={list}
-            trainings={all()}
-            policies={policies.all() ?? []}
             onStarted={() => {
               bringIntoView(view, entries);
             }}
@@ -135,9 +111,6 @@ export function TrainView(props: TrainProps): JSX.Element {
           <header class="panel-head">
             <h2>Trainings</h2>
           </header>
-          <div role="alert">
-            <Show when={list.trouble()}>{(text) => <p class="refusal">{text()}</p>}</Show>
-          </div>
           <p class="visually-hidden" role="status">
             {said()}
           </p>
@@ -149,12 +122,11 @@ export function TrainView(props: TrainProps): JSX.Element {
                     <TrainingEntry
                       summary={summary()}
                       before={before(id)}
-                      list={list}
                       isShown={shown() === id}
                       isCompared={beside() === id}
                       canCompare={shown() !== id}
                       canOperate={lab.canOperate()}
-                      isDeleted={isDeleted(summary())}
+                      isDeleted={summary().policy !== null && !trained(summary())}
                       onChoose={() => {
                         choose(id);
                       }}
@@ -163,11 +135,11 @@ export function TrainView(props: TrainProps): JSX.Element {
                         state.compare(beside() === id ? undefined : id);
                       }}
                       onUse={() => {
-                        const policy = usable(summary());
+                        const policy = trained(summary());
                         if (policy) use(policy, [summary().query.map]);
                       }}
                       onEvaluate={() => {
-                        const policy = usable(summary());
+                        const policy = trained(summary());
                         if (policy) evaluate(policy, summary().query.map);
                       }}
                     />
@@ -176,13 +148,13 @@ export function TrainView(props: TrainProps): JSX.Element {
               )}
             </For>
           </ul>
-          <Show when={list.all()?.length === 0}>
+          <Show when={lab.catalog.trainings()?.length === 0}>
             <p class="placeholder">No trainings yet.</p>
           </Show>
         </section>
       </div>
       {/* With the list, so that nothing moves when that arrives. */}
-      <Show when={list.all()}>
+      <Show when={lab.catalog.trainings()}>
         <div class="train-right">
           <Show when={ids().length === 0}>
             <Intro />
@@ -247,7 +219,6 @@ export function TrainView(props: TrainProps): JSX.Element {
           </Show>
           <PoliciesPanel
             lab={lab}
-            list={policies}
             palette={palette}
             theme={props.theme}
             onUse={(policy) => {

@@ -5,14 +5,13 @@ import type { TrainingSummary } from '../../net/protocol.gen';
 import { ConfirmButton } from '../../ui/ConfirmButton';
 import { Fault } from './Fault';
 import { isActive, stageSentence, stageWords, updateWords } from '../../lab/trainingStage';
-import type { TrainingList } from './trainings';
+import { discardTraining, pauseTraining, resumeTraining } from './trainings';
 import { isOpen, type Wish } from './wish';
 
 interface EntryProps {
   readonly summary: TrainingSummary;
   /** The trainings that were requested earlier. */
   readonly before: readonly TrainingSummary[];
-  readonly list: TrainingList;
   readonly isShown: boolean;
   readonly isCompared: boolean;
   /** Whether it can be shown beside the shown one. */
@@ -33,7 +32,7 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
   let entry!: HTMLLIElement;
   let choose!: HTMLButtonElement;
   const name = (): string => props.summary.query.name;
-  const attempt = async (change: Promise<void>): Promise<boolean> => {
+  const attempt = async (change: Promise<unknown>): Promise<boolean> => {
     setRefusal(undefined);
     try {
       await change;
@@ -46,8 +45,7 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
   const removeIt = async (): Promise<void> => {
     const other = entry.nextElementSibling ?? entry.previousElementSibling;
     // The button is removed with its focus.
-    if (await attempt(props.list.discard(props.summary.id)))
-      other?.querySelector('button')?.focus();
+    if (await attempt(discardTraining(props.summary.id))) other?.querySelector('button')?.focus();
   };
   const why = (): string | undefined =>
     props.canOperate ? undefined : 'Only the operator can do this';
@@ -56,7 +54,7 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
     const now = wish();
     if (now && !isOpen(now, props.summary.stage)) setWish(undefined);
   });
-  const request = async (words: Wish['words'], change: Promise<void>): Promise<boolean> => {
+  const request = async (words: Wish['words'], change: Promise<unknown>): Promise<boolean> => {
     setWish({ words, from: props.summary.stage });
     const isTaken = await attempt(change);
     if (!isTaken) setWish(undefined);
@@ -65,11 +63,11 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
   const pauseOrResume = (): void => {
     const { id } = props.summary;
     if (wish()) return;
-    if (isActive(props.summary) && !isPaused()) void request('pausing…', props.list.pause(id));
-    else void request('resuming…', props.list.resume(id));
+    if (isActive(props.summary) && !isPaused()) void request('pausing…', pauseTraining(id));
+    else void request('resuming…', resumeTraining(id));
   };
   const cancel = (): Promise<boolean> => {
-    const answer = request('cancelling…', props.list.discard(props.summary.id));
+    const answer = request('cancelling…', discardTraining(props.summary.id));
     // The button with the focus is removed.
     choose.focus();
     return answer;

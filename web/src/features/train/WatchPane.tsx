@@ -107,11 +107,6 @@ export function WatchPane(props: PaneProps): JSX.Element {
         {name()}
         <span class="about">{live.summary().query.map}</span>
         <span class="train-now about number">{progressWords(live.summary())}</span>
-        <Show when={live.isLost()}>
-          <span class="alarm" role="alert">
-            No connection: this is the last received state.
-          </span>
-        </Show>
       </h3>
       <div class="train-picture">
         <TrainingPlan

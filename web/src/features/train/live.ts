@@ -1,76 +1,22 @@
-// One training as it happens: the messages of its WebSocket, and its cells and value maps.
+// One training as it happens: its points, its cells and its value maps.
 
 import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
-import { backoffMs, socketAddress } from '../../net/connection';
+import { createDetail } from '../../net/detail';
 import type {
   TrainingCells,
   TrainingFrame,
-  TrainingMessage,
   TrainingPoint,
+  TrainingReport,
   TrainingSummary,
 } from '../../net/protocol.gen';
 import { get } from '../../net/requests';
 import { FrameCache } from './frames';
 import { isActive } from '../../lab/trainingStage';
-import { trainingPath } from './trainings';
-
-export interface Followed {
-  readonly summary: TrainingSummary;
-  readonly points: readonly TrainingPoint[];
-}
-
-/** Adds a message. The first one of a connection has all points. */
-export function follow(
-  before: Followed | undefined,
-  { summary, points }: TrainingMessage,
-  isFirst: boolean,
-): Followed {
-  if (isFirst || !before) return { summary, points };
-  return { summary, points: points.length === 0 ? before.points : [...before.points, ...points] };
-}
-
-/** Follows the training with this id until the returned function is called. */
-function watch(
-  id: string,
-  onMessage: (message: TrainingMessage, isFirst: boolean) => void,
-  onLost: (isLost: boolean) => void,
-): () => void {
-  let socket: WebSocket | undefined;
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  let attempt = 0;
-  let isOver = false;
-  const open = (): void => {
-    let isFirst = true;
-    socket = new WebSocket(socketAddress(window.location, `${trainingPath(id)}/live`));
-    socket.onmessage = ({ data }: MessageEvent<string>) => {
-      const message = JSON.parse(data) as TrainingMessage;
-      attempt = 0;
-      onLost(false);
-      onMessage(message, isFirst);
-      isFirst = false;
-      isOver = !isActive(message.summary);
-    };
-    // An error is always followed by a close.
-    socket.onclose = () => {
-      if (isOver) return;
-      attempt += 1;
-      onLost(true);
-      timer = setTimeout(open, backoffMs(attempt, Math.random()));
-    };
-  };
-  open();
-  return () => {
-    isOver = true;
-    clearTimeout(timer);
-    socket?.close();
-  };
-}
+import { TRAININGS, trainingPath } from './trainings';
 
 export interface Live {
   readonly summary: Accessor<TrainingSummary>;
   readonly points: Accessor<readonly TrainingPoint[]>;
-  /** Whether the connection is lost. */
-  readonly isLost: Accessor<boolean>;
   readonly cells: Accessor<TrainingCells | undefined>;
   /** Why cells or value maps are missing, if something went wrong. */
   readonly error: Accessor<string | undefined>;
@@ -82,28 +28,25 @@ export interface Live {
   readAll(): void;
 }
 
-/** `listed` is the training in the list; its id stays the same. */
-export function createLive(listed: Accessor<TrainingSummary>): Live {
-  const { id } = listed();
-  const [followed, setFollowed] = createSignal<Followed>();
-  const [isLost, setLost] = createSignal(false);
+/** The id of the training stays the same. `watched` are its points while the server sends them. */
+export function createLive(
+  summary: Accessor<TrainingSummary>,
+  watched: Accessor<readonly TrainingPoint[] | undefined>,
+): Live {
   const [cells, setCells] = createSignal<TrainingCells>();
   const [error, setError] = createSignal<string>();
   const [version, setVersion] = createSignal(0);
   const [isReadingAll, setReadingAll] = createSignal(false);
-  const path = trainingPath(id);
+  const path = trainingPath(summary().id);
+  const report = createDetail<TrainingSummary, TrainingReport>(
+    TRAININGS,
+    () => (watched() ? undefined : summary()),
+    ({ stage, updates }) => `${stage} ${updates}`,
+  );
   const cache = new FrameCache((index) => get<TrainingFrame>(`${path}/frames/${index}`), {
     changed: () => setVersion((before) => before + 1),
     failed: setError,
   });
-  const unwatch = watch(
-    id,
-    (message, isFirst) => {
-      setFollowed((before) => follow(before, message, isFirst));
-    },
-    setLost,
-  );
-  const summary = createMemo(() => (isLost() ? listed() : (followed()?.summary ?? listed())));
   const stage = createMemo(() => summary().stage);
   const count = createMemo(() => summary().frames);
   let isAsking = false;
@@ -127,7 +70,6 @@ export function createLive(listed: Accessor<TrainingSummary>): Live {
     if (isReadingAll()) cache.wantAll(count());
   });
   onCleanup(() => {
-    unwatch();
     cache.close();
   });
   const frames = createMemo(() => {
@@ -136,8 +78,7 @@ export function createLive(listed: Accessor<TrainingSummary>): Live {
   });
   return {
     summary,
-    points: () => followed()?.points ?? [],
-    isLost,
+    points: () => watched() ?? report()?.curve ?? [],
     cells,
     error,
     frame: (index) => {

@@ -11,7 +11,7 @@ export async function usePolicy(
 ): Promise<void> {
   const scene = lab.scene();
   if (!scene) return;
-  const map = mapFor(trained, scene.map, scene.maps);
+  const map = mapFor(trained, scene.map, lab.catalog.maps() ?? []);
   const parameters = { ...scene.parameters, rl_policy: reference };
   const { seed } = scene;
   const answer =

@@ -1,11 +1,16 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 import type { Parameters } from '../parameters.gen';
+import type { ChallengeSummary } from './challenges.gen';
 import type { ComparisonMessage } from './comparison.gen';
+import type { EvaluationSummary } from './evaluations.gen';
 import type { ControllerName, Disturbance, PositionerKind, Scripted } from './experiment.gen';
-import type { Happening, RefusalCode, Told } from './facts.gen';
 import type { OverlayMessage, SeenMessage } from './layers.gen';
+import type { PolicySummary } from './policies.gen';
+import type { ProgramStanding } from './programs.gen';
+import type { RecoverySummary } from './recoveries.gen';
 import type { SceneMessage, StateMessage } from './session.gen';
+import type { TrainingPoint, TrainingSummary } from './trainings.gen';
 
 /**
  * A message from a browser. Positions are in metres in `base`.
@@ -30,7 +35,11 @@ repeat: number, } | { "type": "disturb", disturbance: Disturbance, } | { "type":
 /**
  * Another number for each press: one whose motion has ended moves nothing again.
  */
-press?: number, } | { "type": "take_control", } | { "type": "release_control", };
+press?: number, } | { "type": "watch_training", 
+/**
+ * Its id.
+ */
+training: string | null, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
  * Role of a browser.
@@ -40,7 +49,7 @@ export type Role = "operator" | "viewer";
 /**
  * What the server sends as text.
  */
-export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & SessionError;
+export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "catalog" } & CatalogMessage | { "type": "training_points" } & TrainingPointsMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & ErrorMessage;
 
 /**
  * See `ServerMessage::Hello`.
@@ -105,24 +114,47 @@ export type EventKind = "switch" | "disturbance" | "goal" | "reached" | "deliver
 /**
  * See `ServerMessage::Event`.
  */
-export type EventMessage = { tick: number, sim_time_s: number, kind: EventKind, what: Told<Happening>, 
+export type EventMessage = { tick: number, sim_time_s: number, kind: EventKind, 
+/**
+ * One sentence.
+ */
+text: string, 
 /**
  * Part of the past of a run that the session has returned to; omitted otherwise.
  */
 again?: boolean, };
 
 /**
- * See `ServerMessage::Error`.
+ * See `ServerMessage::Error`; an HTTP problem has the same fields.
  */
-export type SessionError = { code: RefusalCode, 
+export type ErrorMessage = { 
+/**
+ * For programs, such as `in_wall`.
+ */
+code: string, 
 /**
  * For people: names the field and the value.
  */
-message: string, field?: string, 
+message: string, field?: string, };
+
 /**
- * What was refused, by name.
+ * A list of the server, whole, with the items of its HTTP resource.
  */
-values: Record<string, unknown>, };
+export type CatalogMessage = { "list": "maps", "items": Array<string> } | { "list": "policies", "items": Array<PolicySummary> } | { "list": "trainings", "items": Array<TrainingSummary> } | { "list": "evaluations", "items": Array<EvaluationSummary> } | { "list": "recoveries", "items": Array<RecoverySummary> } | { "list": "programs", "items": Array<ProgramStanding> } | { "list": "challenges", "items": Array<ChallengeSummary> };
+
+/**
+ * Points of the training that this browser watches.
+ */
+export type TrainingPointsMessage = { 
+/**
+ * Id of the training.
+ */
+training: string, 
+/**
+ * Number of points before these, 0 in the first message. Those that came after them before are replaced: a training
+ * that failed goes on from an earlier point.
+ */
+first: number, points: Array<TrainingPoint>, };
 
 /**
  * See `ServerMessage::Done`.
@@ -144,7 +176,11 @@ export type RefusedMessage = {
 /**
  * That of the message.
  */
-id: number, code: RefusalCode, 
+id: number, 
+/**
+ * For programs, such as `in_wall`.
+ */
+code: string, 
 /**
  * The field of the message that it is about.
  */

@@ -16,14 +16,6 @@ export type SceneMessage = {
  */
 map: string, 
 /**
- * Maps that `load_scenario` accepts.
- */
-maps: Array<string>, 
-/**
- * Added policies that the parameter `rl_policy` accepts, besides the shipped ones.
- */
-policies: Array<string>, 
-/**
  * The trial's scenario; controller, goal and parameters may have changed since.
  */
 scenario: Scenario, 

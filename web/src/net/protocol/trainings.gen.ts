@@ -220,15 +220,6 @@ export type Trainings = {
 trainings: Array<TrainingSummary>, };
 
 /**
- * Message of the WebSocket `/api/trainings/{id}/live`, after each change.
- */
-export type TrainingMessage = { summary: TrainingSummary, 
-/**
- * Points since the last message; the first message has all.
- */
-points: Array<TrainingPoint>, };
-
-/**
  * The cells of a training's map: all lists of its value maps have this order.
  */
 export type TrainingCells = { 

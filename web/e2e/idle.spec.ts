@@ -1,0 +1,57 @@
+// A page at rest asks the server for nothing: what changes comes over its one WebSocket.
+
+import { setTimeout as delay } from 'node:timers/promises';
+import { expect, test } from './fixtures';
+import { DRAWING } from './support/maps';
+import { until } from './support/wait';
+
+/** The recordings are read once more after three seconds. */
+const settleMs = (view: string) => (view === 'Recordings' ? 3300 : 700);
+/** Longer than the pauses with which these views polled. */
+const REST_MS = 5300;
+
+test('a page at rest makes no request, in any view, after each tab was open', async ({
+  lab,
+  openLab,
+  server,
+}) => {
+  const { page } = await openLab();
+  const requests: string[] = [];
+  const sockets: string[] = [];
+  page.on('request', (request) => requests.push(request.url()));
+  page.on('websocket', (socket) => sockets.push(socket.url()));
+  await page.reload();
+  const tabs = page.getByRole('tab');
+  await expect(page.getByTestId('connection')).toHaveText('live');
+  expect(await tabs.count()).toBeGreaterThan(5);
+  for (const tab of await tabs.all()) await tab.click();
+  for (const name of ['Draw', 'Train', 'Recordings', 'Evaluate', 'Laboratory']) {
+    await page
+      .getByRole('navigation', { name: 'Views' })
+      .getByRole('button', { name, exact: true })
+      .click();
+    let count = -1;
+    await until('the requests of the view', async () => {
+      const before = count;
+      count = requests.length;
+      await delay(settleMs(name));
+      return before === requests.length;
+    });
+    await delay(REST_MS);
+    expect(requests.slice(count), name).toEqual([]);
+  }
+  // What another browser changes is shown all the same.
+  const before = requests.length;
+  const added = await lab.page.request.post(`${server.url}/api/maps?name=rest`, {
+    data: DRAWING,
+    headers: { 'content-type': 'image/svg+xml' },
+  });
+  const { name } = (await added.json()) as { name: string };
+  const option = page.getByLabel('Map', { exact: true }).locator(`option[value=${name}]`);
+  await expect(option).toHaveCount(1);
+  expect((await lab.page.request.delete(`${server.url}/api/maps/${name}`)).status()).toBe(204);
+  await expect(option).toHaveCount(0);
+  expect(requests.slice(before)).toEqual([]);
+  expect(sockets.map((url) => new URL(url).pathname.split('/').at(-1))).toEqual(['live']);
+  await page.close();
+});
