@@ -162,7 +162,9 @@ export function Form(props: {
           {props.why}
         </span>
         {props.beside}
-        <Show when={summary()}>{(words) => <span class="refusal">{words()}</span>}</Show>
+        <Show when={!props.isInline && summary()}>
+          {(words) => <span class="refusal">{words()}</span>}
+        </Show>
       </div>
       <p class="refusal" role="alert">
         {general()}

@@ -14,22 +14,22 @@ export function Help(props: { id: string; of: string; text: string }): JSX.Eleme
     () => button,
   );
   const [place, setPlace] = createSignal({ left: '0', top: '0' });
-  createEffect(() => {
-    if (!open()) return;
-    // Panels scroll and would cut it off, so its place is one in the window.
+  // Panels scroll and would cut it off, so its place is one in the window.
+  const put = (): void => {
     const at = button.getBoundingClientRect();
     const { width, height } = text.getBoundingClientRect();
     const left = Math.max(GAP_PX, Math.min(at.left, innerWidth - width - GAP_PX));
     const isBelow = at.bottom + height + GAP_PX <= innerHeight;
     setPlace({ left: `${left}px`, top: `${isBelow ? at.bottom : at.top - height}px` });
-    const close = (): void => {
-      setOpen(false);
-    };
-    addEventListener('scroll', close, true);
-    addEventListener('resize', close);
+  };
+  createEffect(() => {
+    if (!open()) return;
+    put();
+    addEventListener('scroll', put, true);
+    addEventListener('resize', put);
     onCleanup(() => {
-      removeEventListener('scroll', close, true);
-      removeEventListener('resize', close);
+      removeEventListener('scroll', put, true);
+      removeEventListener('resize', put);
     });
   });
   return (
@@ -44,7 +44,6 @@ export function Help(props: { id: string; of: string; text: string }): JSX.Eleme
           setOpen(!open());
         }}
       >
-        <span aria-hidden="true">?</span>
         <span class="visually-hidden">Help: {props.of}</span>
       </button>
       <span ref={text} id={props.id} class="help-text" hidden={!open()} style={place()}>
