@@ -19,6 +19,7 @@ pub use disturbance::{
     When,
 };
 pub use parameters::Hashed;
+pub use parameters::descriptor;
 pub use parameters::{
     AddedPolicy, AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, Preset, PresetKind,
     RlPolicy, SetError, SwitchingLaw, Unit,

@@ -17,6 +17,7 @@ mod point;
 mod recipe;
 mod replay;
 mod run;
+mod settings;
 mod survey;
 pub mod sweep;
 mod terrain;
@@ -35,12 +36,13 @@ pub use library::{ADDED_POLICIES, Added, Library, LibraryError};
 pub use point::{Point, Spread, WINDOW};
 pub use recipe::{Recipe, RecipeError, RecipeName};
 pub use run::{Run, Saving, drive};
+pub use settings::{FusionName, Settings};
 pub use survey::{MazeLattice, SurveyRecipe, SurveyRun, examine as examine_surveys, examine_teacher};
 pub use terrain::{MOST_TERRAINS, Terrain, TerrainError, wall_waves_m};
 pub use training::State;
 pub use trainings::{
-    Cells, Frame, FusionName, Origin, QueryError, Settings, Status, SubmitTrainingError, Trail, Training,
-    TrainingQuery, TrainingStage, Trainings,
+    Cells, Frame, Origin, QueryError, Status, SubmitTrainingError, Trail, Training, TrainingQuery, TrainingStage,
+    Trainings,
 };
 
 /// Git revision of the working tree, marked if it has changes; outside a repository, the program's version.

@@ -67,6 +67,11 @@ impl Refusal {
         Self { code, field: field.map(str::to_owned), values: Map::new(), detail: detail.to_owned() }
     }
 
+    pub fn with(mut self, name: &str, value: impl Into<Value>) -> Self {
+        self.values.insert(name.to_owned(), value.into());
+        self
+    }
+
     /// The answer to the message of this id.
     pub fn of(self, id: u64) -> RefusedMessage {
         let Self { code, field, values, detail } = self;

@@ -2,11 +2,11 @@
 //! here.
 
 mod arm;
+mod forms;
 mod parameters;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use serde_json::json;
 use ts_rs::{Config, TS};
 
 use super::*;
@@ -31,7 +31,7 @@ use ferry_core::session::RefusalCode;
 use ferry_core::session::SPEED_MAX;
 use ferry_core::trial::{EventKind, GOAL_RADIUS_M, Happening, Resumption};
 use ferry_lab::evaluate::{Comparison, EvaluationQuery, PairedMean, PaperRow, Row, Setting, Variation};
-use ferry_lab::learn::{Ending, FusionName, Recipe, RecipeName, Settings, Trail, TrainingQuery};
+use ferry_lab::learn::{Ending, FusionName, RecipeName, Settings, Trail, TrainingQuery};
 use ferry_lab::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
 use ferry_ur::controller::{Connected, Standing as RobotStanding};
 use ferry_ur::refusals::Refused;
@@ -70,7 +70,6 @@ fn constants() -> String {
         constant("MAX_SVG_BYTES", MAX_SVG_BYTES, "Largest drawing of a map."),
         controller_labels(),
         shipped_maps(),
-        recipes(),
     ]
     .join("\n")
 }
@@ -91,26 +90,6 @@ fn shipped_maps() -> String {
         "/** Maps that every server has. */\nexport const SHIPPED_MAPS: readonly string[] = [{}];\n",
         names.join(", ")
     )
-}
-
-/// The settings of each recipe that the page offers.
-fn recipes() -> String {
-    let line = |(name, recipe): (&str, Recipe)| {
-        let settings = json!({
-            "updates": recipe.updates,
-            "learning_rate": recipe.learning_rate,
-            "discount": recipe.discount,
-            "exploration": recipe.exploration,
-            "noisy": recipe.architecture.noisy,
-            "progress_reward": recipe.progress_reward,
-            "step_penalty": recipe.step_penalty,
-            "n_step": recipe.n_step,
-            "fusion": recipe.architecture.fusion,
-        });
-        format!("  {name}: {settings},\n")
-    };
-    let all = [("quick", Recipe::quick()), ("full", Recipe::default()), ("paper", Recipe::paper())];
-    format!("/** Settings of the recipes. */\nexport const RECIPES = {{\n{}}} as const;\n", all.map(line).concat())
 }
 
 fn constant(name: &str, value: impl std::fmt::Display, about: &str) -> String {

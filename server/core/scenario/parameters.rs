@@ -1,6 +1,6 @@
 //! All parameters that the operator can change, with their ranges.
 
-mod descriptor;
+pub mod descriptor;
 mod policy;
 mod presets;
 #[cfg(feature = "schema")]

@@ -41,6 +41,7 @@ pub enum RefusalCode {
     // The server around the session.
     NoProgram,
     NoTry,
+    NoTraining,
     NoGoal,
     NoRobot,
     RobotRefused,

@@ -15,6 +15,7 @@ use super::hub::json;
 use crate::http::Server;
 use crate::http::routes::{challenges, controllers, evaluations, recoveries, trainings};
 use crate::protocol::{CatalogMessage, Policies, Refusal, ServerMessage, TrainingPoint, TrainingPointsMessage};
+use ferry_core::session::RefusalCode;
 use ferry_lab::learn::{Point, Training};
 
 /// Shortest time between two messages about the same list.
@@ -169,7 +170,8 @@ impl Feed {
     pub fn watch(&mut self, server: &Server, id: Option<String>) -> Result<(), Refusal> {
         let found = id.map(|id| {
             let detail = format!("training is {id:?}, there is no such training");
-            server.trainings.find(&id).ok_or_else(|| Refusal::new("no_training", &detail, Some("training")))
+            let refusal = Refusal::new(RefusalCode::NoTraining, &detail, Some("training"));
+            server.trainings.find(&id).ok_or_else(|| refusal.with("training", id))
         });
         self.watched = found.transpose()?.map(|training| Watched { training, sent: None });
         Ok(())

@@ -122,7 +122,8 @@ impl From<SubmitError> for Problem {
                     | QueryError::Empty { .. }
                     | QueryError::Twice { .. }
                     | QueryError::Vary(_)
-                    | QueryError::Range { .. } => "out_of_range",
+                    | QueryError::Range { .. }
+                    | QueryError::Number(_) => "out_of_range",
                 };
                 Self::new(StatusCode::UNPROCESSABLE_ENTITY, code, detail).field(&query.field())
             }

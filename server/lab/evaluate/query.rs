@@ -9,14 +9,13 @@ use super::variation::applied;
 use super::{Setting, Variation, VariationError};
 use ferry_core::map::{Library, Map, MapError};
 use ferry_core::policy::PolicyError;
+use ferry_core::scenario::descriptor::{FormField, Outside, PLAIN, whole};
 use ferry_core::scenario::{ControllerName, Parameters, RlPolicy};
 
 /// Maximum number of cells per evaluation: three controllers over 8 × 8 values of two parameters have 192.
 pub const CELL_LIMIT: usize = 240;
 /// Maximum number of trials per evaluation.
 const TRIAL_LIMIT: u64 = 24_000;
-/// Trials per cell.
-const EPISODES: std::ops::RangeInclusive<u32> = 1..=1000;
 /// Scripted disturbances per trial. With more, few trials end within their steps.
 pub const DISTURBANCES: std::ops::RangeInclusive<u32> = 0..=10;
 
@@ -120,6 +119,8 @@ pub enum QueryError {
     /// Out of range.
     #[error("{field} is {value}, it must be {} to {}", .allowed.start(), .allowed.end())]
     Range { field: String, value: u32, allowed: std::ops::RangeInclusive<u32> },
+    #[error(transparent)]
+    Number(#[from] Outside),
     #[error("vary: {0}")]
     Vary(#[from] VariationError),
     /// More cells than one evaluation may have.
@@ -139,6 +140,7 @@ impl QueryError {
             Self::Program { .. } => "program".to_owned(),
             Self::Policy(_) => "rl_policy".to_owned(),
             Self::Range { field, .. } => field.clone(),
+            Self::Number(outside) => outside.field.to_owned(),
             Self::Vary(_) => "vary".to_owned(),
             Self::TooManyCells { .. } => "maps".to_owned(),
             Self::TooManyTrials { .. } => "episodes".to_owned(),
@@ -147,6 +149,14 @@ impl QueryError {
 }
 
 impl EvaluationQuery {
+    /// Its number with a range: the range check and the page's form come from here.
+    pub const FIELDS: [FormField; 1] = [FormField {
+        name: "episodes",
+        label: "Episodes per cell",
+        help: "Trials of each controller on each map: more of them narrow the intervals.",
+        kind: whole(PLAIN, [1.0, 1000.0], 10.0),
+    }];
+
     /// The cells of the query, with the controllers of a map next to each other.
     pub fn cells(&self) -> Result<Vec<Cell>, QueryError> {
         distinct("controllers", &self.controllers, |controller| controller.as_str().to_owned())?;
@@ -179,9 +189,7 @@ impl EvaluationQuery {
                 });
             }
         }
-        if !EPISODES.contains(&self.episodes) {
-            return Err(QueryError::Range { field: "episodes".into(), value: self.episodes, allowed: EPISODES });
-        }
+        FormField::check(&Self::FIELDS, &[Some(self.episodes.into())])?;
         let trials = u64::from(self.episodes) * cells as u64;
         if trials > TRIAL_LIMIT {
             return Err(QueryError::TooManyTrials { episodes: self.episodes, cells, trials });

@@ -6,8 +6,10 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::goals::GoalSet;
+use super::settings::Settings;
 use ferry_core::policy::{Architecture, Fusion};
 use ferry_core::scenario::Parameters;
+use ferry_core::scenario::descriptor::Outside;
 
 /// Steps of an episode (paper, §IV-A).
 pub const EPISODE_STEPS: u32 = 150;
@@ -90,6 +92,15 @@ pub enum RecipeName {
     Paper,
 }
 
+impl RecipeName {
+    /// All, each with its label on the page and what it is.
+    pub const ALL: [(Self, &str, &str); 3] = [
+        (Self::Quick, "Quick", "Learns one map in minutes."),
+        (Self::Full, "Full", "That of the shipped policies. It takes half as long again."),
+        (Self::Paper, "Paper", "Rewards, fusion and returns of the paper: slower to learn."),
+    ];
+}
+
 impl std::str::FromStr for RecipeName {
     type Err = String;
 
@@ -149,6 +160,12 @@ pub struct RecipeError {
     pub allowed: String,
 }
 
+impl From<Outside> for RecipeError {
+    fn from(Outside { field, value, range: [least, most] }: Outside) -> Self {
+        Self { field, value: value.to_string(), allowed: format!("{least} to {most}") }
+    }
+}
+
 impl RecipeError {
     /// Checks numbers, each with its name and its range; the error names the first that is outside.
     ///
@@ -156,9 +173,7 @@ impl RecipeError {
     /// [`RecipeError`].
     pub fn check_ranges(ranges: &[(&'static str, f64, f64, f64)]) -> Result<(), Self> {
         match ranges.iter().find(|(_, value, min, max)| !(*min..=*max).contains(value)) {
-            Some((field, value, min, max)) => {
-                Err(Self { field, value: value.to_string(), allowed: format!("{min} to {max}") })
-            }
+            Some(&(field, value, min, max)) => Err(Outside { field, value, range: [min, max] }.into()),
             None => Ok(()),
         }
     }
@@ -220,10 +235,6 @@ impl Recipe {
         let ranges = [
             ("priority_exponent", self.priority_exponent, 0.0, 1.0),
             ("importance_start", self.importance_start, 0.0, 1.0),
-            ("n_step", self.n_step as f64, 1.0, 20.0),
-            ("discount", self.discount, 0.0, 1.0),
-            ("progress_reward", self.progress_reward, 0.0, 1.0),
-            ("step_penalty", self.step_penalty, 0.0, 1.0),
             ("clearance_m", self.clearance_m, 0.0, 0.02),
             ("wall_amplitude_m", self.wall_amplitude_m, 0.0, most_amplitude_m),
             ("images", self.images as f64, 1.0, 1024.0),
@@ -231,11 +242,9 @@ impl Recipe {
             ("uniform_goals", self.uniform_goals, 0.0, 1.0),
             ("future_goals", self.future_goals, 0.0, 1.0 - self.uniform_goals),
             ("held_out_goals", self.held_out_goals, 0.0, 0.5),
-            ("exploration", self.exploration, 0.0, 1.0),
             ("averaging", self.averaging, 0.0, 0.999_99),
             ("fractions", self.fractions as f64, 1.0, 64.0),
             ("choosing_fractions", self.choosing_fractions as f64, 1.0, 64.0),
-            ("learning_rate", self.learning_rate, 0.0, 0.1),
             ("learning_rate_end", self.learning_rate_end, 0.0, 0.1),
             ("gradient_most", self.gradient_most, 1e-3, 1e6),
             ("target_period", self.target_period as f64, 1.0, 1e6),
@@ -245,6 +254,8 @@ impl Recipe {
             ("warm_up", self.warm_up as f64, self.images as f64, 1e6),
             ("updates", self.updates as f64, 1.0, 1e8),
         ];
+        // A run from the command line may be longer than one that a client starts.
+        Settings { updates: None, ..Settings::from(self) }.check()?;
         RecipeError::check_ranges(&ranges)?;
         if self.architecture.fusion == Fusion::Survey {
             let (value, allowed) = ("survey".to_owned(), "early or late, except with --map generated".to_owned());

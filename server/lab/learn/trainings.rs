@@ -22,7 +22,7 @@ use ferry_core::trial::Arena;
 use folder::Record;
 
 pub use frame::{Cells, Frame, Trail};
-pub use query::{FusionName, QueryError, Settings, TrainingQuery};
+pub use query::{QueryError, TrainingQuery};
 pub use stage::TrainingStage;
 pub use training::{Origin, Status, Training};
 

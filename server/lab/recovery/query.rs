@@ -1,6 +1,5 @@
 //! What a recovery map tries, checked before anything runs.
 
-use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
@@ -8,11 +7,9 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use ferry_core::scenario::ControllerName;
+use ferry_core::scenario::descriptor::{FormField, Outside, PLAIN, S, number, whole};
 use ferry_core::trial::Phase;
 
-const GRID: RangeInclusive<u32> = 4..=96;
-const REPEATS: RangeInclusive<u32> = 1..=100;
-const WITHIN_S: RangeInclusive<f64> = 1.0..=600.0;
 /// Largest number of trials of one recovery map.
 const TRIALS_MOST: usize = 100_000;
 
@@ -86,8 +83,8 @@ pub enum RecoveryError {
     Person { index: usize, name: ControllerName },
     #[error("controllers[{index}] is \"program\", but no program is selected in the session and connected")]
     Program { index: usize },
-    #[error("{field} is {value}, it must be {min} to {max}")]
-    Range { field: &'static str, value: f64, min: f64, max: f64 },
+    #[error(transparent)]
+    Range(#[from] Outside),
     #[error("grid, repeats and controllers make {trials} trials, the limit is {TRIALS_MOST}")]
     TooManyTrials { trials: usize },
     #[error("grid is {grid}: no cell has room for the bead at its centre, use more columns")]
@@ -106,7 +103,7 @@ impl RecoveryError {
             Self::Twice { index, .. } | Self::Person { index, .. } | Self::Program { index } => {
                 format!("controllers[{index}]")
             }
-            Self::Range { field, .. } => (*field).to_owned(),
+            Self::Range(outside) => outside.field.to_owned(),
             Self::TooManyTrials { .. } | Self::NoCell { .. } => "grid".to_owned(),
             Self::NoGoal { .. } | Self::Ended { .. } => "tick".to_owned(),
         }
@@ -114,6 +111,28 @@ impl RecoveryError {
 }
 
 impl RecoveryQuery {
+    /// Its numbers with a range: the range check and the page's form come from here.
+    pub const FIELDS: [FormField; 3] = [
+        FormField {
+            name: "grid",
+            label: "Columns",
+            help: "Of the finest grid: places, directions or times.",
+            kind: whole(PLAIN, [4.0, 96.0], 1.0),
+        },
+        FormField {
+            name: "repeats",
+            label: "Repeats",
+            help: "Trials per cell and controller, each with its own noise.",
+            kind: whole(PLAIN, [1.0, 100.0], 1.0),
+        },
+        FormField {
+            name: "within_s",
+            label: "In time",
+            help: "A later delivery is late; simulated time.",
+            kind: number(S, [1.0, 600.0], 1.0),
+        },
+    ];
+
     /// # Errors
     /// [`RecoveryError`] names the first field that is wrong.
     pub fn check(&self, has_program: bool) -> Result<(), RecoveryError> {
@@ -128,17 +147,8 @@ impl RecoveryQuery {
                 _ => {}
             }
         }
-        let real = |range: &RangeInclusive<u32>| f64::from(*range.start())..=f64::from(*range.end());
-        for (field, value, range) in [
-            ("grid", f64::from(self.grid), real(&GRID)),
-            ("repeats", f64::from(self.repeats), real(&REPEATS)),
-            ("within_s", self.within_s, WITHIN_S),
-        ] {
-            if !range.contains(&value) {
-                return Err(RecoveryError::Range { field, value, min: *range.start(), max: *range.end() });
-            }
-        }
-        Ok(())
+        let numbers = [self.grid.into(), self.repeats.into(), self.within_s];
+        Ok(FormField::check(&Self::FIELDS, &numbers.map(Some))?)
     }
 
     pub(super) fn check_trials(&self, trials: usize) -> Result<(), RecoveryError> {

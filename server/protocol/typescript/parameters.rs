@@ -1,57 +1,15 @@
 //! `web/src/net/parameters.gen.ts`, from which the page makes its form, and `docs/parameters.md`.
 
-use serde_json::{Value, json};
+use serde_json::Value;
 use ts_rs::Config;
 
+use super::forms::{field, property};
 use super::{declaration, keep};
 use ferry_core::plant::{BlockOrientation, ToolOrientation};
-use ferry_core::scenario::{Bound, Group, Kind, Parameter, Parameters, Preset, RlPolicy};
+use ferry_core::scenario::{Group, Kind, Number, Parameter, Parameters, Preset};
 
 fn members(group: Group) -> impl Iterator<Item = &'static Parameter> {
     Parameters::ALL.iter().filter(move |parameter| parameter.group == group)
-}
-
-fn property(name: &str, value: impl Into<Value>) -> String {
-    format!("{name}: {}", value.into())
-}
-
-/// A whole number is written without a point.
-fn plain(value: f64) -> Value {
-    if value.fract() == 0.0 { json!(value as i64) } else { json!(value) }
-}
-
-fn field(parameter: &Parameter) -> String {
-    let Parameter { name, label, help, kind, .. } = *parameter;
-    let mut properties = vec![property("name", name), property("label", label)];
-    let kind = match kind {
-        Kind::Number(number) => {
-            let [least, most] = number.shown_range();
-            properties.extend([
-                property("unit", number.unit.shown),
-                property("scale", plain(number.unit.scale)),
-                property("min", plain(least)),
-                property("max", plain(most)),
-                property("step", plain(number.step)),
-                property("whole", number.whole),
-            ]);
-            properties.extend(number.bound.map(|bound| match bound {
-                Bound::AtMost(other) => format!("bound: {{ kind: 'atMost', other: '{other}' }}"),
-                Bound::Quarter(other) => format!("bound: {{ kind: 'quarter', other: '{other}' }}"),
-                Bound::Remainder(other) => format!("bound: {{ kind: 'remainder', other: '{other}' }}"),
-            }));
-            "number"
-        }
-        Kind::Flag => "flag",
-        Kind::Choice(options) => {
-            properties.push(property("options", json!(options)));
-            "choice"
-        }
-        Kind::Policy => {
-            properties.push(property("options", json!(RlPolicy::OPTIONS)));
-            "policy"
-        }
-    };
-    format!("      {{ kind: '{kind}', {}, help: {} }},\n", properties.join(", "), json!(help))
 }
 
 fn group(group: Group) -> String {
@@ -59,7 +17,9 @@ fn group(group: Group) -> String {
     if let Some(controller) = group.controller() {
         head += &format!(", {}", property("controller", controller.as_str()));
     }
-    let fields: String = members(group).map(field).collect();
+    let fields: String = members(group)
+        .map(|parameter| format!("      {},\n", field(&parameter.form_field(), Number::shown_range)))
+        .collect();
     format!("  {{\n    {head}, open: {},\n    fields: [\n{fields}    ],\n  }},\n", group.is_open())
 }
 

@@ -32,7 +32,7 @@ export const RECOVERY: Section = {
       ready: (lab) => lab.label('Disturbance').selectOption('blind'),
     },
     'spinbutton Repeats': { see: valueOf },
-    'spinbutton In time, s': { see: valueOf },
+    'spinbutton In time': { see: valueOf },
     'spinbutton Noise seed': { see: valueOf },
     'checkbox Try RL': { see: isChecked, isToggle: true },
     'checkbox Try ERRT': { see: isChecked, isToggle: true },

@@ -13,9 +13,11 @@ import {
   type Work,
   dialogs,
   downloads,
+  expanded,
   isChecked,
   lastSent,
   tab,
+  toggle,
   valueOf,
   view,
 } from './row';
@@ -73,7 +75,7 @@ export const DISTURB: Section = {
     'spinbutton Time in seconds': { see: valueOf, ready: time('time') },
     'spinbutton Control step on the way to a goal': { see: valueOf, ready: time('step') },
     'spinbutton x that the bead passes, in metres': { see: valueOf, ready: time('passes') },
-    'spinbutton Distance from the place in cm': { see: valueOf, ready: time('near') },
+    'spinbutton Within this distance of the place in cm': { see: valueOf, ready: time('near') },
     'button Add to script and restart': { see: script, ready: time('time') },
     'button /^Remove and restart: /': { see: script },
     // The restart of the row before sets this field again, a frame after the message.
@@ -162,6 +164,8 @@ export const MAGNET: Section = {
     'slider Height slider': bound('tool_height_m'),
     'spinbutton Friction': bound('friction'),
     'slider Friction slider': bound('friction'),
+    // One component for all fields that have help.
+    'button /^Help: ./': toggle(expanded),
   },
 };
 

@@ -63,7 +63,7 @@ export const TRAIN: Section = {
     'spinbutton Learning rate': setting(typed),
     'spinbutton Discount': setting(typed),
     'spinbutton Exploration': setting(typed),
-    'combobox Noisy layers': setting(chosen),
+    'checkbox Noisy layers': setting(box),
     'spinbutton Progress reward': setting(typed),
     'spinbutton Step penalty': setting(typed),
     'spinbutton Steps of a return': setting(typed),

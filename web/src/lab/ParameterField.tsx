@@ -1,13 +1,10 @@
-// One parameter as a row of a form: name, value, input.
+// One parameter as a row of a form.
 
-import { For, batch, createMemo, createUniqueId, type JSX } from 'solid-js';
+import { batch, createMemo, type JSX } from 'solid-js';
 import {
-  type ChoiceField,
   digits,
   type Field,
-  type FlagField,
-  type NumberField,
-  type PolicyField,
+  type NumberField as NumberParameter,
   policyOptions,
   shownMost,
   shownValue,
@@ -15,8 +12,7 @@ import {
 } from './parameters';
 import type { Parameters, SceneMessage } from '../net/protocol.gen';
 import type { Session, Trial } from './slices';
-import { NumberInput } from '../ui/NumberInput';
-import './ParameterField.css';
+import { ChoiceField, FlagField, NumberField } from '../ui/fields/fields';
 
 export interface Form {
   /** The server's values with pending edits. */
@@ -33,140 +29,84 @@ export interface Form {
   readonly edit: (change: Partial<Parameters>) => void;
 }
 
-function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
+function NumberRow(props: { form: Form; field: NumberParameter; isChanged: boolean }): JSX.Element {
   const { form, field } = props;
   // While a slider moves, its number follows. The value is sent when the slider is released.
   const shown = createMemo(() =>
     shownValue(field, form.moving()[field.name] ?? form.values()[field.name]),
   );
-  const max = (): number => shownMost(field, form.values());
   // A memo, so that changes of other parameters do not overwrite what the user types.
   const text = createMemo(() => shown().toFixed(digits(field.step)));
   const stored = (value: number): Partial<Parameters> => ({
     [field.name]: storedValue(field, value, form.values()),
   });
-  const commit = (value: number): void => {
-    batch(() => {
-      form.move({});
-      form.edit(stored(value));
-    });
-  };
-  const id = createUniqueId();
   return (
-    <div
-      class="row"
-      classList={{ changed: form.values()[field.name] !== form.defaults()[field.name] }}
-    >
-      <label for={id} title={field.help}>
-        {field.label}
-      </label>
-      <span class="with-unit">
-        <NumberInput
-          id={id}
-          min={field.min}
-          max={max()}
-          step={field.step}
-          isWhole={field.whole}
-          value={text()}
-          disabled={form.disabled()}
-          // A value out of range becomes the nearest one.
-          onNumber={commit}
-        />
-        <span class="unit">{field.unit}</span>
-      </span>
-      <input
-        type="range"
-        aria-label={`${field.label} slider`}
-        min={field.min}
-        max={max()}
-        step={field.step}
-        value={shown()}
-        disabled={form.disabled()}
-        onInput={(event) => {
-          const change = stored(event.currentTarget.valueAsNumber);
+    <NumberField
+      {...field}
+      isChanged={props.isChanged}
+      max={shownMost(field, form.values())}
+      value={text()}
+      disabled={form.disabled()}
+      slider={{
+        get value() {
+          return shown();
+        },
+        onMove: (value) => {
+          const change = stored(value);
           // Released where it started: no change event.
           form.move(change[field.name] === form.values()[field.name] ? {} : change);
-        }}
-        onPointerCancel={() => {
+        },
+        onCancel: () => {
           form.move({});
-        }}
-        onChange={(event) => {
-          commit(event.currentTarget.valueAsNumber);
-        }}
-      />
-    </div>
-  );
-}
-
-function ChoiceRow(props: {
-  form: Form;
-  field: ChoiceField | PolicyField;
-  options: readonly (readonly [value: string, label: string])[];
-}): JSX.Element {
-  const { form, field } = props;
-  const value = (): string => form.values()[field.name];
-  const id = createUniqueId();
-  return (
-    <div class="row" classList={{ changed: value() !== form.defaults()[field.name] }}>
-      <label for={id} title={field.help}>
-        {field.label}
-      </label>
-      <select
-        id={id}
-        disabled={form.disabled() || form.idle(field.name) !== undefined}
-        title={form.idle(field.name)}
-        onChange={(event) => {
-          form.edit({ [field.name]: event.currentTarget.value });
-        }}
-      >
-        <For each={props.options}>
-          {([option, label]) => (
-            <option value={option} selected={value() === option}>
-              {label}
-            </option>
-          )}
-        </For>
-      </select>
-    </div>
-  );
-}
-
-function FlagRow(props: { form: Form; field: FlagField }): JSX.Element {
-  const { form, field } = props;
-  const value = (): boolean => form.values()[field.name];
-  const id = createUniqueId();
-  return (
-    <div class="row" classList={{ changed: value() !== form.defaults()[field.name] }}>
-      <label for={id} title={field.help}>
-        {field.label}
-      </label>
-      <input
-        id={id}
-        type="checkbox"
-        checked={value()}
-        disabled={form.disabled()}
-        onChange={(event) => {
-          form.edit({ [field.name]: event.currentTarget.checked });
-        }}
-      />
-    </div>
+        },
+      }}
+      // A value out of range becomes the nearest one.
+      onNumber={(value) => {
+        batch(() => {
+          form.move({});
+          form.edit(stored(value));
+        });
+      }}
+    />
   );
 }
 
 export function FieldRow(props: { form: Form; field: Field }): JSX.Element {
   const { form, field } = props;
+  const isChanged = (): boolean => form.values()[field.name] !== form.defaults()[field.name];
   switch (field.kind) {
     case 'number':
-      return <NumberRow form={form} field={field} />;
-    case 'choice':
-      return <ChoiceRow form={form} field={field} options={field.options} />;
-    case 'policy': {
-      const options = (): ReturnType<typeof policyOptions> =>
-        policyOptions(field, form.policies(), form.values()[field.name]);
-      return <ChoiceRow form={form} field={field} options={options()} />;
-    }
+      return <NumberRow form={form} field={field} isChanged={isChanged()} />;
     case 'flag':
-      return <FlagRow form={form} field={field} />;
+      return (
+        <FlagField
+          {...field}
+          isChanged={isChanged()}
+          value={form.values()[field.name]}
+          disabled={form.disabled()}
+          onChoose={(value) => {
+            form.edit({ [field.name]: value });
+          }}
+        />
+      );
+    default: {
+      const value = (): string => form.values()[field.name];
+      const options = (): ReturnType<typeof policyOptions> =>
+        field.kind === 'policy' ? policyOptions(field, form.policies(), value()) : field.options;
+      return (
+        <ChoiceField
+          {...field}
+          isChanged={isChanged()}
+          help={[form.idle(field.name), field.help].filter(Boolean).join(' ')}
+          options={options()}
+          value={value()}
+          disabled={form.disabled() || form.idle(field.name) !== undefined}
+          onChoose={(chosen) => {
+            form.edit({ [field.name]: chosen });
+          }}
+        />
+      );
+    }
   }
 }
 

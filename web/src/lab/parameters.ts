@@ -55,7 +55,7 @@ export interface NumberField {
   readonly max: number;
   readonly step: number;
   /** Whether it counts something. */
-  readonly whole: boolean;
+  readonly isWhole: boolean;
   /** How another parameter limits it from above: at most the other one, or both together at most 1. */
   readonly bound?: {
     readonly kind: 'atMost' | 'quarter' | 'remainder';
@@ -166,7 +166,7 @@ export function shownMost(field: NumberField, parameters: Parameters): number {
 /** From the shown unit to the stored one, inside the field's range. */
 export function storedValue(field: NumberField, shown: number, parameters: Parameters): number {
   const inside = Math.min(field.max, Math.max(field.min, shown));
-  const whole = field.whole ? Math.round(inside) : inside;
+  const whole = field.isWhole ? Math.round(inside) : inside;
   const stored = Number((whole / field.scale).toPrecision(12));
   return Math.min(stored, boundOf(field, parameters));
 }

@@ -97,10 +97,3 @@ export const CONTROLLERS = ['rl', 'errt', 'attractor'] as const;
 
 /** Maps that every server has. */
 export const SHIPPED_MAPS: readonly string[] = ['attractor-example', 'attractor-example-arm', 'colon', 'colon-folds', 'open', 'posts', 'u-turn', 'vessels'];
-
-/** Settings of the recipes. */
-export const RECIPES = {
-  quick: {"discount":0.96,"exploration":0.05,"fusion":"late","learning_rate":0.001,"n_step":1,"noisy":true,"progress_reward":0.1,"step_penalty":0.1,"updates":10000},
-  full: {"discount":0.9,"exploration":0.05,"fusion":"late","learning_rate":0.001,"n_step":1,"noisy":true,"progress_reward":0.1,"step_penalty":0.0,"updates":12000},
-  paper: {"discount":0.99,"exploration":0.0,"fusion":"early","learning_rate":0.0001,"n_step":3,"noisy":true,"progress_reward":0.0,"step_penalty":0.0,"updates":12000},
-} as const;

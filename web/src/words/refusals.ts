@@ -53,6 +53,7 @@ const SENTENCES: Readonly<Record<RefusalCode, (one: Refused) => string>> = {
     'The start of the trial is no longer kept. Reset, and save a case within ten minutes.',
   no_program: (one) => `No program named ${text(one.values.program)} has connected.`,
   no_try: () => 'The recovery map no longer has this trial.',
+  no_training: (one) => `There is no training named ${text(one.values.training)}.`,
   no_goal: () => 'No goal was set at that moment, so there is nothing to compare.',
   no_robot: () => 'This session drives no robot.',
   robot_refused: inside,

@@ -19,6 +19,77 @@ pub struct Parameter {
     pub kind: Kind,
 }
 
+/// A field of a form of the page: a parameter, or a setting of a background job.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FormField {
+    /// Name on the wire.
+    pub name: &'static str,
+    pub label: &'static str,
+    pub help: &'static str,
+    pub kind: Kind,
+}
+
+/// A number out of its range.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{field} is {value}, it must be {} to {}", .range[0], .range[1])]
+pub struct Outside {
+    pub field: &'static str,
+    pub value: f64,
+    /// Smallest and largest allowed value.
+    pub range: [f64; 2],
+}
+
+impl FormField {
+    /// Checks the values of fields, in their order; `None` is not checked.
+    ///
+    /// # Errors
+    /// The first one that is out of range.
+    pub fn check(fields: &[Self], values: &[Option<f64>]) -> Result<(), Outside> {
+        for (field, value) in fields.iter().zip(values) {
+            let (Kind::Number(Number { range, .. }), Some(value)) = (field.kind, *value) else { continue };
+            if !(range[0]..=range[1]).contains(&value) {
+                return Err(Outside { field: field.name, value, range });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The value of a field as a number, if it is one.
+pub trait Numeric {
+    fn number(&self) -> Option<f64> {
+        None
+    }
+}
+
+impl Numeric for f64 {
+    fn number(&self) -> Option<f64> {
+        Some(*self)
+    }
+}
+
+impl Numeric for u8 {
+    fn number(&self) -> Option<f64> {
+        Some((*self).into())
+    }
+}
+
+impl Numeric for u32 {
+    fn number(&self) -> Option<f64> {
+        Some((*self).into())
+    }
+}
+
+impl Numeric for bool {}
+
+impl Parameter {
+    /// It as a field of the page's form.
+    pub fn form_field(&self) -> FormField {
+        let Self { name, label, help, kind, .. } = *self;
+        FormField { name, label, help, kind }
+    }
+}
+
 /// Allowed values of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {

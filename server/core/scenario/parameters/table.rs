@@ -8,8 +8,8 @@ use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::descriptor::{
-    Bound, CM, DEGREES, Group, Kind, LEVELS, MM, MM_S, MN_S_M, PERCENT, PLAIN, PX, Parameter, S, TICKS, bounded,
-    number, whole,
+    Bound, CM, DEGREES, Group, Kind, LEVELS, MM, MM_S, MN_S_M, Numeric, PERCENT, PLAIN, PX, Parameter, S, TICKS,
+    bounded, number, whole,
 };
 use super::{AttractorLaw, RlPolicy, SwitchingLaw};
 use crate::image::CameraMount;
@@ -17,32 +17,6 @@ use crate::plant::{
     BeadMotion, BlockOrientation, Contraction, LEAST_PERIOD_S, LEAST_WAVELENGTH_M, MOST_CLOSING_M, ToolOrientation,
 };
 
-/// A parameter's value as a number, if it is one.
-trait Numeric {
-    fn number(&self) -> Option<f64> {
-        None
-    }
-}
-
-impl Numeric for f64 {
-    fn number(&self) -> Option<f64> {
-        Some(*self)
-    }
-}
-
-impl Numeric for u8 {
-    fn number(&self) -> Option<f64> {
-        Some((*self).into())
-    }
-}
-
-impl Numeric for u32 {
-    fn number(&self) -> Option<f64> {
-        Some((*self).into())
-    }
-}
-
-impl Numeric for bool {}
 impl Numeric for BlockOrientation {}
 impl Numeric for ToolOrientation {}
 impl Numeric for BeadMotion {}

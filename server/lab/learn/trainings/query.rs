@@ -7,59 +7,15 @@ use utoipa::ToSchema;
 use crate::learn::LibraryError;
 use crate::learn::error::TrainingError;
 use crate::learn::recipe::{Recipe, RecipeError, RecipeName};
+use crate::learn::settings::Settings;
 use crate::learn::terrain::TerrainError;
 use ferry_core::geometry::Point2;
 use ferry_core::map::{Map, MapError};
 use ferry_core::policy::{Architecture, Fusion, Manifest, PolicyError};
 use ferry_core::schema::Numbers2;
 
-/// Largest number of updates; at the usual speed, a quarter of an hour.
-const MOST_UPDATES: u64 = 20_000;
 /// Largest number of cells of a map; an image of each is kept in memory.
 const MOST_CELLS: usize = 6000;
-
-/// How image, tool and goal come together in the network.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum FusionName {
-    /// As a second channel of the image, as in the paper.
-    Early,
-    /// After the image's features.
-    Late,
-}
-
-/// Settings that differ from the recipe, named as in `ferry train --set`. A missing one is the recipe's.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(deny_unknown_fields, default)]
-#[schema(as = TrainingSettings)]
-#[ts(rename = "TrainingSettings")]
-pub struct Settings {
-    /// Updates of the network.
-    #[ts(type = "number | null")]
-    #[schema(minimum = 1, maximum = 20000)]
-    pub updates: Option<u64>,
-    /// Learning rate of Adam in the first half.
-    #[schema(minimum = 0, maximum = 0.1)]
-    pub learning_rate: Option<f64>,
-    /// Discount per step.
-    #[schema(minimum = 0, maximum = 1)]
-    pub discount: Option<f64>,
-    /// Share of random actions.
-    #[schema(minimum = 0, maximum = 1)]
-    pub exploration: Option<f64>,
-    /// Whether the network's noisy layers explore.
-    pub noisy: Option<bool>,
-    /// Reward per step of true distance gained.
-    #[schema(minimum = 0, maximum = 1)]
-    pub progress_reward: Option<f64>,
-    /// Subtracted at each step.
-    #[schema(minimum = 0, maximum = 1)]
-    pub step_penalty: Option<f64>,
-    /// Steps of a return.
-    #[schema(minimum = 1, maximum = 20)]
-    pub n_step: Option<u32>,
-    pub fusion: Option<FusionName>,
-}
 
 /// Body of `POST /api/trainings`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -85,15 +41,6 @@ pub struct TrainingQuery {
     #[ts(type = "[number, number] | null")]
     #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<Point2<f64>>,
-}
-
-impl From<FusionName> for Fusion {
-    fn from(name: FusionName) -> Self {
-        match name {
-            FusionName::Early => Self::Early,
-            FusionName::Late => Self::Late,
-        }
-    }
 }
 
 /// Why a training is rejected or failed.
@@ -147,6 +94,7 @@ impl TrainingQuery {
     /// # Errors
     /// [`QueryError::Recipe`], [`QueryError::Memory`].
     pub fn recipe(&self, start: Option<&Manifest>) -> Result<Recipe, QueryError> {
+        self.settings.check()?;
         let mut recipe = Recipe::named(self.recipe);
         let Settings {
             updates,
@@ -160,7 +108,7 @@ impl TrainingQuery {
             fusion,
         } = self.settings;
         let fusion = fusion.map(Fusion::from);
-        recipe.updates = updates.unwrap_or(recipe.updates);
+        recipe.updates = updates.map_or(recipe.updates, u64::from);
         recipe.discount = discount.unwrap_or(recipe.discount);
         recipe.exploration = exploration.unwrap_or(recipe.exploration);
         recipe.progress_reward = progress_reward.unwrap_or(recipe.progress_reward);
@@ -188,7 +136,6 @@ impl TrainingQuery {
             // Early fusion computes features for one goal.
             recipe.goals = 1;
         }
-        RecipeError::check_ranges(&[("updates", recipe.updates as f64, 1.0, MOST_UPDATES as f64)])?;
         recipe.check()?;
         Ok(recipe)
     }
@@ -211,6 +158,7 @@ impl TrainingQuery {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::learn::settings::FusionName;
     use ferry_core::policy::Policy;
 
     fn query() -> TrainingQuery {
@@ -236,7 +184,7 @@ mod tests {
         for (settings, field) in [
             (Settings { discount: Some(1.5), ..Settings::default() }, "settings.discount"),
             (Settings { updates: Some(0), ..Settings::default() }, "settings.updates"),
-            (Settings { updates: Some(MOST_UPDATES + 1), ..Settings::default() }, "settings.updates"),
+            (Settings { updates: Some(20_001), ..Settings::default() }, "settings.updates"),
             (Settings { learning_rate: Some(f64::NAN), ..Settings::default() }, "settings.learning_rate"),
         ] {
             assert_eq!(TrainingQuery { settings, ..query() }.recipe(None).unwrap_err().field(), field);

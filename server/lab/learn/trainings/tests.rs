@@ -3,6 +3,7 @@ use std::time::{Duration, Instant};
 
 use super::*;
 use crate::learn::recipe::RecipeName;
+use crate::learn::settings::Settings;
 use ferry_camera::{AdapterChoice, Gpu};
 use ferry_core::policy;
 use ferry_core::scenario::RlPolicy;

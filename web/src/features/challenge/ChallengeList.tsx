@@ -1,9 +1,11 @@
 // The challenges of the day and of the week, one with any seed, and those that were played before.
 
-import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
+import { For, Show, createSignal, type JSX } from 'solid-js';
 import { DIFFICULTY_LABELS, PERIOD_LABELS } from '../../lab/challenges';
 import type { Contested, Session } from '../../lab/slices';
 import type { ChallengeSummary, DifficultyName, Period } from '../../net/protocol.gen';
+import { ChoiceField, TextField } from '../../ui/fields/fields';
+import { Form } from '../../ui/fields/Form';
 import { counted, seconds } from '../../ui/format';
 import { OwnSession } from './OwnSession';
 import { challengeTitle, seedFault } from './words';
@@ -50,59 +52,34 @@ function Cards(props: {
 
 /** Any seed: who uses the same one gets the same trial. */
 function OwnSeed(props: { isDisabled: boolean; onPlay: (name: string) => void }): JSX.Element {
-  const id = createUniqueId();
   const [difficulty, setDifficulty] = createSignal<DifficultyName>('easy');
   const [seed, setSeed] = createSignal('');
-  const [fault, setFault] = createSignal<string>();
-  let field!: HTMLInputElement;
+  const word = (): string => seed().trim().toLowerCase();
   return (
-    <form
-      class="challenge-own"
-      onSubmit={(event) => {
-        event.preventDefault();
-        const wrong = seedFault(seed());
-        setFault(wrong);
-        if (wrong === undefined) props.onPlay(`${difficulty()}-${seed()}`);
-        else field.focus();
+    <Form
+      class="challenge-fields"
+      send={() => {
+        props.onPlay(`${difficulty()}-${word()}`);
       }}
+      button="Play this"
+      buttonClass="small"
+      disabled={props.isDisabled}
     >
-      <p id={`${id}-help`}>The same word gives the same trial, to everybody.</p>
-      <label>
-        Difficulty
-        <select
-          onChange={(event) => {
-            setDifficulty(event.currentTarget.value as DifficultyName);
-          }}
-        >
-          <For each={Object.entries(DIFFICULTY_LABELS)}>
-            {([name, label]) => <option value={name}>{label}</option>}
-          </For>
-        </select>
-      </label>
-      <label>
-        Word
-        <input
-          ref={field}
-          type="text"
-          autocomplete="off"
-          autocapitalize="off"
-          spellcheck={false}
-          placeholder="anna-7b"
-          aria-invalid={fault() !== undefined}
-          aria-describedby={`${id}-help ${id}-fault`}
-          onInput={(event) => {
-            setSeed(event.currentTarget.value.trim().toLowerCase());
-            setFault(undefined);
-          }}
-        />
-      </label>
-      <button type="submit" class="small" disabled={props.isDisabled}>
-        Play this
-      </button>
-      <p id={`${id}-fault`} class="refusal" role="alert">
-        {fault()}
-      </p>
-    </form>
+      <ChoiceField
+        label="Difficulty"
+        value={difficulty()}
+        options={Object.entries(DIFFICULTY_LABELS) as [DifficultyName, string][]}
+        onChoose={setDifficulty}
+      />
+      <TextField
+        label="Word"
+        help="The same word gives the same trial, to everybody."
+        placeholder="anna-7b"
+        value={seed()}
+        check={() => seedFault(word())}
+        onInput={setSeed}
+      />
+    </Form>
   );
 }
 

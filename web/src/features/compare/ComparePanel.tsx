@@ -4,7 +4,7 @@ import { For, Show, createMemo, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
 import { errors_m, lastTick } from '../../lab/comparison';
-import { COMPARABLE } from '../../lab/ControllerChecks';
+import { COMPARABLE } from '../../lab/offered';
 import { createPalette } from '../../ui/palette';
 import { controllerLabel } from '../../lab/parameters';
 import type { Branch, ComparisonMessage } from '../../net/protocol.gen';

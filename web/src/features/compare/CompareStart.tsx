@@ -1,25 +1,20 @@
 // Chooses controllers and starts a comparison.
 
 import { Show, createSignal, type JSX } from 'solid-js';
-import { CommandButton } from '../../lab/CommandButton';
 import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
-import { COMPARABLE, ControllerChecks, createOffered } from '../../lab/ControllerChecks';
 import { isFailure } from '../../lab/failure';
+import { createOffered } from '../../lab/offered';
 import type { Compared, Events, Session, Trial } from '../../lab/slices';
 import type { ControllerName } from '../../net/protocol.gen';
+import { CheckField } from '../../ui/fields/fields';
+import { Form } from '../../ui/fields/Form';
 import { clock } from '../../ui/format';
 
 export function CompareStart(props: { lab: Session & Trial & Events & Compared }): JSX.Element {
   const { lab } = props;
-  const [chosen, setChosen] = createSignal<ReadonlySet<ControllerName>>(new Set(COMPARABLE));
-  const toggle = (name: ControllerName, on: boolean): void => {
-    const next = new Set(chosen());
-    if (on) next.add(name);
-    else next.delete(name);
-    setChosen(next);
-  };
+  const [leftOut, setLeftOut] = createSignal<readonly ControllerName[]>([]);
   const { offered, label } = createOffered(lab);
-  const wanted = (): ControllerName[] => offered().filter((name) => chosen().has(name));
+  const wanted = (): ControllerName[] => offered().filter((name) => !leftOut().includes(name));
   /** At the end of an attempt there is nothing left to compare. */
   const isOver = (): boolean => {
     const phase = lab.state()?.phase;
@@ -33,38 +28,46 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
     return `Continues from ${moment} under each controller, without changing the session`;
   };
   return (
-    <div class="compare-start">
-      <ControllerChecks
+    <Form
+      class="compare-start"
+      isInline
+      send={async () => {
+        const tick = from();
+        if (tick === undefined) return;
+        await lab.send('compare', { type: 'fork', tick, controllers: wanted() });
+      }}
+      button="Start comparison"
+      buttonClass="small primary"
+      buttonTitle={title()}
+      disabled={!lab.canOperate() || from() === undefined}
+      why={from() === undefined ? START_NOT_KEPT : undefined}
+      beside={
+        <span class="compare-of" role="status">
+          <Show when={lab.comparison.shown()}>
+            {(comparison) => (
+              <>
+                from {clock(comparison().sim_time_s)}
+                <Show when={comparison().running}>, running …</Show>
+                <Show when={comparison().failed}>{(reason) => <>: failed: {reason()}</>}</Show>
+              </>
+            )}
+          </Show>
+        </span>
+      }
+    >
+      <CheckField
+        name="controllers"
+        label="Controllers"
+        hideLabel
         verb="Compare"
-        offered={offered()}
-        label={label}
-        isChosen={(name) => chosen().has(name)}
-        onToggle={toggle}
-      />
-      <CommandButton
-        lab={lab}
-        at="compare"
-        class="small primary"
-        disabled={wanted().length === 0 || from() === undefined}
-        title={title()}
-        command={() => {
-          const tick = from();
-          return tick === undefined ? undefined : { type: 'fork', tick, controllers: wanted() };
+        missing="Choose at least one controller."
+        all={offered()}
+        chosen={wanted()}
+        text={label}
+        onChoose={(names) => {
+          setLeftOut(offered().filter((name) => !names.includes(name)));
         }}
-      >
-        Start comparison
-      </CommandButton>
-      <span class="compare-of" role="status">
-        <Show when={lab.comparison.shown()}>
-          {(comparison) => (
-            <>
-              from {clock(comparison().sim_time_s)}
-              <Show when={comparison().running}>, running …</Show>
-              <Show when={comparison().failed}>{(reason) => <>: failed: {reason()}</>}</Show>
-            </>
-          )}
-        </Show>
-      </span>
-    </div>
+      />
+    </Form>
   );
 }

@@ -1,11 +1,12 @@
 // The form of the parameters. Each edit sends all parameters; the form shows the server's values.
 
-import { For, Index, Show, createMemo, createUniqueId, type JSX } from 'solid-js';
+import { For, Index, Show, createMemo, type JSX } from 'solid-js';
 import { GROUPS, PRESET_KINDS, presetOf, type Group, type PresetKind } from '../../lab/parameters';
 import type { SceneMessage } from '../../net/protocol.gen';
 import { createForm, FieldRow, type Form } from '../../lab/ParameterField';
 import type { Session, Trial } from '../../lab/slices';
 import { createFold } from '../../ui/fold';
+import { ChoiceField } from '../../ui/fields/fields';
 import { FoldButton } from '../../ui/FoldButton';
 import './ParameterForm.css';
 
@@ -31,39 +32,24 @@ function GroupBox(props: { form: Form; group: Group }): JSX.Element {
 function Presets(props: { form: Form; kind: PresetKind }): JSX.Element {
   const { form } = props;
   const presets = (): PresetKind['presets'] => props.kind.presets;
-  const id = createUniqueId();
   const index = (): number => presetOf(props.kind, form.values());
   return (
-    <div class="row presets">
-      <label
-        for={id}
-        title={presets()
+    <div class="presets">
+      <ChoiceField<string>
+        label={props.kind.label}
+        help={presets()
           .map((one) => `${one.label}: ${one.help}`)
           .join('\n')}
-      >
-        {props.kind.label}
-      </label>
-      <select
-        id={id}
-        title={presets()[index()]?.help}
+        value={String(index())}
+        options={[
+          ...(index() < 0 ? [['-1', 'Changed by hand'] as const] : []),
+          ...presets().map(({ label }, at) => [String(at), label] as const),
+        ]}
         disabled={form.disabled()}
-        onChange={(event) => {
-          form.edit(presets()[Number(event.currentTarget.value)]?.values ?? {});
+        onChoose={(at) => {
+          form.edit(presets()[Number(at)]?.values ?? {});
         }}
-      >
-        <Show when={index() < 0}>
-          <option value={-1} selected>
-            Changed by hand
-          </option>
-        </Show>
-        <For each={presets()}>
-          {({ label }, at) => (
-            <option value={at()} selected={at() === index()}>
-              {label}
-            </option>
-          )}
-        </For>
-      </select>
+      />
     </div>
   );
 }

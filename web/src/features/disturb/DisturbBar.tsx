@@ -25,14 +25,19 @@ import {
   type When,
 } from '../../net/protocol.gen';
 import { ScriptList } from './ScriptList';
-import { Amount, Choice, type Place, PlaceFields } from './disturbFields';
+import { type Place, placeAt, PlaceFields } from './PlaceFields';
 import type { Picker } from '../../plan/picker';
 import type { Session, Trial } from '../../lab/slices';
+import { ChoiceField, NumberField } from '../../ui/fields/fields';
+import { Form } from '../../ui/fields/Form';
+import { numberOf } from '../../ui/fields/number';
 import './disturb.css';
 
 /** One hour. */
 const LATEST_S = 3600;
 const FARTHEST_CM = 100;
+/** Of a strength, force or duration, in the shown unit. */
+const LEAST = 0.01;
 
 export function DisturbBar(props: {
   lab: Session & Trial;
@@ -41,19 +46,19 @@ export function DisturbBar(props: {
 }): JSX.Element {
   const { lab } = props;
   const { bead_m } = lab.state() ?? { bead_m: [0, 0] };
-  const here: Place = { x_m: Number(bead_m[0].toFixed(3)), y_m: Number(bead_m[1].toFixed(3)) };
+  const here = placeAt(bead_m[0], bead_m[1]);
   const [kind, setKind] = createSignal<Kind>('kick');
   const [time, setTime] = createSignal<Time>('now');
   const [direction, setDirection] = createSignal<Direction>('random');
-  const [kick_mn_s, setKick] = createSignal(1);
-  const [push_mn, setPush] = createSignal(2);
-  const [for_s, setFor] = createSignal(1);
-  const [target, setTarget] = createSignal(here);
-  const [time_s, setTimeS] = createSignal(5);
-  const [step, setStep] = createSignal(30);
-  const [passes_m, setPasses] = createSignal(0);
-  const [near, setNear] = createSignal(here);
-  const [within_cm, setWithin] = createSignal(2);
+  const [kick_mn_s, setKick] = createSignal('1');
+  const [push_mn, setPush] = createSignal('2');
+  const [for_s, setFor] = createSignal('1');
+  const [target, setTarget] = createSignal<Place>(here);
+  const [time_s, setTimeS] = createSignal('5');
+  const [step, setStep] = createSignal('30');
+  const [passes_m, setPasses] = createSignal('0');
+  const [near, setNear] = createSignal<Place>(here);
+  const [within_cm, setWithin] = createSignal('2');
   onCleanup(() => {
     props.picker.cancel();
   });
@@ -64,13 +69,13 @@ export function DisturbBar(props: {
   const disturbance = (): Disturbance => {
     switch (kind()) {
       case 'kick':
-        return kick(kick_mn_s(), toward());
+        return kick(numberOf(kick_mn_s()), toward());
       case 'push':
-        return push(push_mn(), for_s(), toward());
+        return push(numberOf(push_mn()), numberOf(for_s()), toward());
       case 'move':
-        return move(target().x_m, target().y_m);
+        return move(numberOf(target().x_m), numberOf(target().y_m));
       case 'blind':
-        return blind(for_s());
+        return blind(numberOf(for_s()));
     }
   };
   /** Undefined means now. */
@@ -79,13 +84,19 @@ export function DisturbBar(props: {
       case 'now':
         return undefined;
       case 'time':
-        return { tick: Math.round(time_s() / (lab.scene()?.tick_s ?? 1)) };
+        return { tick: Math.round(numberOf(time_s()) / (lab.scene()?.tick_s ?? 1)) };
       case 'step':
-        return { step: step() };
+        return { step: numberOf(step()) };
       case 'passes':
-        return { passes_x_m: passes_m() };
+        return { passes_x_m: numberOf(passes_m()) };
       case 'near':
-        return { near: { ...near(), within_m: within_cm() / 100 } };
+        return {
+          near: {
+            x_m: numberOf(near().x_m),
+            y_m: numberOf(near().y_m),
+            within_m: numberOf(within_cm()) / 100,
+          },
+        };
     }
   };
   const submit = (): void => {
@@ -107,38 +118,51 @@ export function DisturbBar(props: {
 
   return (
     <div id={props.id} class="disturb" role="group" aria-label="Disturb the bead">
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          submit();
-        }}
+      <Form
+        class="disturb-form"
+        isInline
+        send={submit}
+        button={button()}
+        buttonClass="small primary"
+        buttonTitle={
+          time() === 'now'
+            ? undefined
+            : 'The script is part of the experiment: the trial restarts with the same map, seed, start, controller, parameters and goal'
+        }
+        disabled={disabled() || (time() !== 'now' && isFull())}
+        why={isFull() ? `The script is full: ${SCRIPT_LIMIT} entries.` : undefined}
       >
-        <Choice
-          name="Kind of disturbance"
+        <ChoiceField
+          hideLabel
+          label="Kind of disturbance"
           options={KINDS}
           value={kind()}
           disabled={disabled()}
-          onValue={setKind}
+          onChoose={setKind}
         />
         <Switch>
           <Match when={kind() === 'kick'}>
-            <Amount
-              name="Strength of the kick in mN·s"
+            <NumberField
+              hideLabel
+              label="Strength of the kick in mN·s"
               unit="mN·s"
+              min={LEAST}
               max={1000 * MOST_IMPULSE_N_S}
               value={kick_mn_s()}
               disabled={disabled()}
-              onValue={setKick}
+              onInput={setKick}
             />
           </Match>
           <Match when={kind() === 'push'}>
-            <Amount
-              name="Force of the push in mN"
+            <NumberField
+              hideLabel
+              label="Force of the push in mN"
               unit="mN"
+              min={LEAST}
               max={1000 * MOST_DRIFT_N}
               value={push_mn()}
               disabled={disabled()}
-              onValue={setPush}
+              onInput={setPush}
             />
           </Match>
           <Match when={kind() === 'move'}>
@@ -152,68 +176,75 @@ export function DisturbBar(props: {
           </Match>
         </Switch>
         <Show when={kind() === 'kick' || kind() === 'push'}>
-          <Choice
-            name="Direction of kick and push"
+          <ChoiceField
+            hideLabel
+            label="Direction of kick and push"
             options={DIRECTIONS}
             value={direction()}
             disabled={disabled()}
-            onValue={setDirection}
+            onChoose={setDirection}
           />
         </Show>
         <Show when={kind() === 'push' || kind() === 'blind'}>
-          <Amount
-            name={
+          <NumberField
+            hideLabel
+            label={
               kind() === 'push'
                 ? 'Duration of the push in seconds'
                 : 'Duration of the blindness in seconds'
             }
             unit="s"
+            min={LEAST}
             max={MOST_SECONDS}
             value={for_s()}
             disabled={disabled()}
-            onValue={setFor}
+            onInput={setFor}
           />
         </Show>
-        <Choice
-          name="Time of the disturbance"
+        <ChoiceField
+          hideLabel
+          label="Time of the disturbance"
           options={TIMES}
           value={time()}
           disabled={disabled()}
-          onValue={setTime}
+          onChoose={setTime}
         />
         <Switch>
           <Match when={time() === 'time'}>
-            <Amount
-              name="Time in seconds"
+            <NumberField
+              hideLabel
+              label="Time in seconds"
               unit="s"
               min={0}
               max={LATEST_S}
               value={time_s()}
               disabled={disabled()}
-              onValue={setTimeS}
+              onInput={setTimeS}
             />
           </Match>
           <Match when={time() === 'step'}>
-            <Amount
-              name="Control step on the way to a goal"
+            <NumberField
+              hideLabel
+              label="Control step on the way to a goal"
               unit="of ¼ s"
               min={1}
               max={MOST_STEPS}
-              whole
+              isWhole
               value={step()}
               disabled={disabled()}
-              onValue={setStep}
+              onInput={setStep}
             />
           </Match>
           <Match when={time() === 'passes'}>
-            <Amount
-              name="x that the bead passes, in metres"
+            <NumberField
+              hideLabel
+              label="x that the bead passes, in metres"
               unit="m"
               min={-10}
               max={10}
               value={passes_m()}
               disabled={disabled()}
-              onValue={setPasses}
+              onInput={setPasses}
             />
           </Match>
           <Match when={time() === 'near'}>
@@ -224,31 +255,19 @@ export function DisturbBar(props: {
               picker={props.picker}
               onValue={setNear}
             />
-            <Amount
-              name="Distance from the place in cm"
-              lead="within"
+            <NumberField
+              label="within"
+              fullName="Within this distance of the place in cm"
               unit="cm"
               min={0.1}
               max={FARTHEST_CM}
               value={within_cm()}
               disabled={disabled()}
-              onValue={setWithin}
+              onInput={setWithin}
             />
           </Match>
         </Switch>
-        <button
-          type="submit"
-          class="small primary"
-          disabled={disabled() || (time() !== 'now' && isFull())}
-          title={
-            time() === 'now'
-              ? undefined
-              : 'The script is part of the experiment: the trial restarts with the same map, seed, start, controller, parameters and goal'
-          }
-        >
-          {button()}
-        </button>
-      </form>
+      </Form>
       <ScriptList lab={lab} />
     </div>
   );

@@ -4,16 +4,18 @@ import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 
 import { describe, describeWhen, MAX_RANDOM, restart } from '../../lab/disturbance';
 import { CommandButton } from '../../lab/CommandButton';
 import type { ClientMessage, Scripted } from '../../net/protocol.gen';
-import { Amount } from './disturbFields';
 import type { Session, Trial } from '../../lab/slices';
+import { NumberField } from '../../ui/fields/fields';
+import { Form } from '../../ui/fields/Form';
+import { numberOf } from '../../ui/fields/number';
 
 export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
   const script = (): readonly Scripted[] => lab.scene()?.scenario.script ?? [];
   // A memo: another scene with the same number, as after a rewind, keeps what the user has typed.
   const inForce = createMemo(() => lab.scene()?.scenario.disturbances ?? 0);
-  const [random, setRandom] = createSignal(inForce());
-  createEffect(on(inForce, setRandom));
+  const [random, setRandom] = createSignal(String(inForce()));
+  createEffect(on(inForce, (count) => setRandom(String(count))));
   const load = (change: Parameters<typeof restart>[2]): ClientMessage | undefined => {
     const scene = lab.scene();
     const state = lab.state();
@@ -23,33 +25,30 @@ export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
     `${describeWhen(at, lab.scene()?.tick_s ?? 0)}: ${describe(disturbance)}`;
   return (
     <div class="script">
-      <form
+      <Form
         class="random"
-        onSubmit={(event) => {
-          event.preventDefault();
-          const message = load({ disturbances: random() });
-          if (message) void lab.send('workspace', message);
+        isInline
+        send={async () => {
+          const message = load({ disturbances: numberOf(random()) });
+          if (message) await lab.send('workspace', message);
         }}
+        button="Set and restart"
+        buttonClass="small"
+        buttonTitle="The trial restarts with the same seed"
+        disabled={!lab.canOperate() || random() === String(inForce())}
       >
-        <Amount
-          name="Number of random moves"
-          unit="random moves while the bead is carried"
+        <NumberField
+          name="disturbances"
+          label="Number of random moves"
+          help="The bead is moved as often while it is carried, at random steps."
           min={0}
           max={MAX_RANDOM}
-          whole
+          isWhole
           value={random()}
           disabled={!lab.canOperate()}
-          onValue={setRandom}
+          onInput={setRandom}
         />
-        <button
-          type="submit"
-          class="small"
-          disabled={!lab.canOperate() || random() === inForce()}
-          title="The trial restarts with the same seed"
-        >
-          Set and restart
-        </button>
-      </form>
+      </Form>
       <Show when={script().length > 0}>
         <ol aria-label="Script">
           <For each={script()}>

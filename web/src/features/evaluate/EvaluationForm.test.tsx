@@ -24,14 +24,23 @@ async function open(answer: (query: EvaluationQuery) => unknown) {
 }
 
 it('marks the field that the server refuses', async () => {
-  const { started } = await open(({ episodes }) =>
-    refusal(`episodes is ${episodes}, it must be 1 to 1000`, 'episodes'),
+  const { server, started } = await open(({ episodes }) =>
+    refusal(`episodes is ${episodes}, which makes 30000 trials`, 'episodes'),
   );
   const episodes = page.getByLabelText('Episodes per cell');
+  // The range is known without the server.
   await episodes.fill('0');
   await userEvent.keyboard('{Enter}');
+  await expect
+    .element(episodes)
+    .toHaveAccessibleDescription('“0” must be a whole number from 1 to 1000.');
+  expect(server.requests).not.toContain('POST /api/evaluations');
+  await episodes.fill('1000');
+  await userEvent.keyboard('{Enter}');
   await expect.element(episodes).toHaveAttribute('aria-invalid', 'true');
-  await expect.element(episodes).toHaveAccessibleDescription('episodes is 0, it must be 1 to 1000');
+  await expect
+    .element(episodes)
+    .toHaveAccessibleDescription('episodes is 1000, which makes 30000 trials');
   expect(started).toEqual([]);
   // A changed field loses its refusal.
   await episodes.fill('1');

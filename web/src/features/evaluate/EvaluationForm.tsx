@@ -1,6 +1,6 @@
 // The form for a new evaluation.
 
-import { For, Show, createMemo, createSignal, createUniqueId, type JSX } from 'solid-js';
+import { Show, createMemo, type JSX } from 'solid-js';
 import {
   CONTROLLERS,
   CONTROLLER_LABELS,
@@ -9,136 +9,21 @@ import {
   policyOptions,
 } from '../../lab/parameters';
 import { createPrograms } from '../../lab/programs';
-import type { EvaluationSummary } from '../../net/protocol.gen';
-import { Refusal } from '../../net/requests';
-import { roughly } from '../../ui/format';
-import { NumberInput } from '../../ui/NumberInput';
-import { startEvaluation } from './evaluations';
-import { draft, setDraft } from './draft';
-import {
-  chooseControllers,
-  type Draft,
-  estimate_s,
-  type Faults,
-  faultsOf,
-  type Field,
-  queryOf,
-  sizeWords,
-  toggled,
-} from './request';
 import type { Session, Trial } from '../../lab/slices';
-import { VaryFields } from './VaryFields';
+import { EVALUATION_FIELDS } from '../../net/forms.gen';
+import type { EvaluationSummary } from '../../net/protocol.gen';
+import { CheckField, ChoiceField, NumberField, type Option } from '../../ui/fields/fields';
+import { Form } from '../../ui/fields/Form';
+import { roughly } from '../../ui/format';
 import { shownName } from '../../ui/name';
+import { draft, setDraft } from './draft';
+import { startEvaluation } from './evaluations';
+import { chooseControllers, type Draft, estimate_s, queryOf, sizeWords } from './request';
+import { VaryFields } from './VaryFields';
 import './EvaluationForm.css';
 
 const DISTURBANCES = [0, 3] as const;
 const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
-
-function Fault(props: { id: string; text: string | undefined }): JSX.Element {
-  return (
-    <div id={props.id} role="alert">
-      <Show when={props.text}>{(text) => <p class="refusal">{text()}</p>}</Show>
-    </div>
-  );
-}
-
-function Choice<T extends string | number>(props: {
-  legend: string;
-  all: readonly T[];
-  chosen: readonly T[];
-  label?: (item: T) => string;
-  fault: string | undefined;
-  onChoose: (chosen: T[]) => void;
-}): JSX.Element {
-  const id = createUniqueId();
-  return (
-    <fieldset class="boxes" aria-describedby={id}>
-      <legend>{props.legend}</legend>
-      <div class="box-row">
-        <For each={props.all}>
-          {(item) => (
-            <label>
-              <input
-                type="checkbox"
-                checked={props.chosen.includes(item)}
-                onChange={({ currentTarget }) => {
-                  props.onChoose(toggled(props.all, props.chosen, item, currentTarget.checked));
-                }}
-              />
-              {props.label?.(item) ?? item}
-            </label>
-          )}
-        </For>
-      </div>
-      <Fault id={id} text={props.fault} />
-    </fieldset>
-  );
-}
-
-function Policy(props: {
-  added: readonly string[];
-  value: string;
-  fault: string | undefined;
-  onInput: (value: string) => void;
-}): JSX.Element {
-  const id = createUniqueId();
-  const fault = createUniqueId();
-  const options = createMemo(() => {
-    const field = FIELDS.find((one): one is PolicyField => one.kind === 'policy');
-    return field ? policyOptions(field, props.added, props.value) : [];
-  });
-  return (
-    <div>
-      <div class="field">
-        <label for={id}>Policy of RL</label>
-        <select
-          id={id}
-          aria-invalid={props.fault !== undefined}
-          aria-describedby={fault}
-          onChange={({ currentTarget }) => {
-            props.onInput(currentTarget.value);
-          }}
-        >
-          <For each={options()}>
-            {([value, label]) => (
-              <option value={value} selected={value === props.value}>
-                {label}
-              </option>
-            )}
-          </For>
-        </select>
-      </div>
-      <Fault id={fault} text={props.fault} />
-    </div>
-  );
-}
-
-function Whole(props: {
-  label: string;
-  value: string;
-  fault: string | undefined;
-  onInput: (value: string) => void;
-}): JSX.Element {
-  const id = createUniqueId();
-  const fault = createUniqueId();
-  return (
-    <div class="whole">
-      <div class="field">
-        <label for={id}>{props.label}</label>
-        <NumberInput
-          id={id}
-          min={0}
-          isWhole
-          value={props.value}
-          isInvalid={props.fault !== undefined}
-          describedBy={fault}
-          onInput={props.onInput}
-        />
-      </div>
-      <Fault id={fault} text={props.fault} />
-    </div>
-  );
-}
 
 export function EvaluationForm(props: {
   lab: Session & Trial;
@@ -146,122 +31,104 @@ export function EvaluationForm(props: {
   onStarted: (id: string) => void;
 }): JSX.Element {
   const { lab } = props;
-  const [faults, setFaults] = createSignal<Faults>({});
-  const [busy, setBusy] = createSignal(false);
   const programs = createPrograms(lab.catalog, () => draft().program || undefined);
-  // A changed field loses its error message.
-  const change = (field: Field, part: Partial<Draft>): void => {
+  const change = (part: Partial<Draft>): void => {
     setDraft({ ...draft(), ...part });
-    setFaults({ ...faults(), [field]: undefined, form: undefined });
   };
+  const policies = createMemo((): readonly Option[] => {
+    const field = FIELDS.find((one): one is PolicyField => one.kind === 'policy');
+    return field ? policyOptions(field, lab.catalog.addedPolicies(), draft().rl_policy) : [];
+  });
   const scope = (): string => {
-    const made = queryOf(draft());
-    if ('faults' in made) return '';
-    const time_s = estimate_s(made.query, props.measured);
+    const query = queryOf(draft());
+    const size = sizeWords(query);
+    if (size === undefined) return '';
+    const time_s = estimate_s(query, props.measured);
     const estimate = time_s === undefined ? 'duration not known yet' : `about ${roughly(time_s)}`;
-    return `${sizeWords(made.query)}; ${estimate}.`;
-  };
-  const start = async (): Promise<void> => {
-    const made = queryOf(draft());
-    if ('faults' in made) {
-      setFaults(made.faults);
-      return;
-    }
-    setFaults({});
-    setBusy(true);
-    try {
-      props.onStarted(await startEvaluation(made.query));
-    } catch (reason) {
-      setFaults(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
-    } finally {
-      setBusy(false);
-    }
+    return `${size}; ${estimate}.`;
   };
   return (
-    <form
+    <Form
       class="evaluation-form"
-      novalidate
-      onSubmit={(event) => {
-        event.preventDefault();
-        // Enter in a field submits the form even when the button is disabled.
-        if (lab.canOperate() && !busy()) void start();
+      send={async () => {
+        props.onStarted(await startEvaluation(queryOf(draft())));
       }}
+      button="Run"
+      disabled={!lab.canOperate()}
+      why="Only the operator can start and cancel evaluations."
     >
-      <Choice
-        legend="Controllers"
+      <CheckField<string>
+        name="controllers"
+        also={['program']}
+        label="Controllers"
+        missing="Choose at least one controller."
         all={[...CONTROLLERS, ...programs()]}
-        chosen={[...draft().controllers, draft().program]}
-        label={(name) => LABELS.get(name) ?? shownName(name)}
-        fault={faults().controllers}
+        chosen={[...draft().controllers, draft().program].filter((name) => name !== '')}
+        text={(name) => LABELS.get(name) ?? shownName(name)}
         onChoose={(chosen) => {
-          change('controllers', chooseControllers(chosen, draft().program));
+          change(chooseControllers(chosen, draft().program));
         }}
       />
       <Show when={draft().controllers.includes('rl')}>
-        <Policy
-          added={lab.catalog.addedPolicies()}
+        <ChoiceField
+          name="rl_policy"
+          label="Policy of RL"
           value={draft().rl_policy}
-          fault={faults().rl_policy}
-          onInput={(rl_policy) => {
-            change('rl_policy', { rl_policy });
+          options={policies()}
+          onChoose={(rl_policy) => {
+            change({ rl_policy });
           }}
         />
       </Show>
-      <Choice
-        legend="Maps"
+      <CheckField
+        name="maps"
+        label="Maps"
+        missing="Choose at least one map."
         all={lab.catalog.maps() ?? []}
         chosen={draft().maps}
-        fault={faults().maps}
         onChoose={(maps) => {
-          change('maps', { maps });
+          change({ maps });
         }}
       />
-      <Choice
-        legend="Disturbances per episode"
+      <CheckField<number>
+        name="disturbances"
+        label="Disturbances per episode"
+        missing="Choose at least one number of disturbances."
         all={DISTURBANCES}
         chosen={draft().disturbances}
-        fault={faults().disturbances}
         onChoose={(disturbances) => {
-          change('disturbances', { disturbances });
+          change({ disturbances });
         }}
       />
       <VaryFields
         value={draft().vary}
-        fault={faults().vary}
         onInput={(vary) => {
-          change('vary', { vary });
+          change({ vary });
         }}
       />
-      <div class="wholes">
-        <Whole
-          label="Episodes per cell"
+      <div class="evaluation-columns">
+        <NumberField
+          {...EVALUATION_FIELDS.episodes}
           value={draft().episodes}
-          fault={faults().episodes}
           onInput={(episodes) => {
-            change('episodes', { episodes });
+            change({ episodes });
           }}
         />
-        <Whole
+        <NumberField
+          name="seed"
           label="Seed"
+          help="The same seed gives the same starts, goals and noise."
+          min={0}
+          isWhole
           value={draft().seed}
-          fault={faults().seed}
           onInput={(seed) => {
-            change('seed', { seed });
+            change({ seed });
           }}
         />
       </div>
       <p class="hint" data-testid="evaluation-scope">
         {scope()}
       </p>
-      <div class="submit">
-        <button type="submit" class="primary" disabled={!lab.canOperate() || busy()}>
-          Run
-        </button>
-        <Show when={!lab.canOperate()}>
-          <span class="hint">Only the operator can start and cancel evaluations.</span>
-        </Show>
-      </div>
-      <Fault id="evaluation-refused" text={faults().form} />
-    </form>
+    </Form>
   );
 }

@@ -1,13 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import {
-  chooseControllers,
-  estimate_s,
-  faultsOf,
-  PAPERS,
-  queryOf,
-  sizeWords,
-  toggled,
-} from './request';
+import { chooseControllers, estimate_s, PAPERS, queryOf, sizeWords } from './request';
 import { cellOf, summaryOf } from './testing';
 
 const PAPERS_QUERY = {
@@ -23,27 +15,23 @@ const PAPERS_QUERY = {
 
 describe('queryOf', () => {
   it('contains the choices and the typed values', () => {
-    expect(queryOf(PAPERS)).toEqual({ query: PAPERS_QUERY });
-    // The server checks the limits.
-    expect(queryOf({ ...PAPERS, episodes: '0' })).toEqual({
-      query: { ...PAPERS_QUERY, episodes: 0 },
-    });
+    expect(queryOf(PAPERS)).toEqual(PAPERS_QUERY);
   });
 
   it('names a policy for RL only', () => {
     const draft = { ...PAPERS, rl_policy: 'mine@0123456789abcdef' };
-    expect(queryOf(draft)).toMatchObject({ query: { rl_policy: draft.rl_policy } });
-    expect(queryOf({ ...draft, controllers: ['errt'] })).toMatchObject({
-      query: { rl_policy: 'auto' },
-    });
+    expect(queryOf(draft)).toMatchObject({ rl_policy: draft.rl_policy });
+    expect(queryOf({ ...draft, controllers: ['errt'] })).toMatchObject({ rl_policy: 'auto' });
   });
 
   it('names a program beside the controllers, or alone', () => {
     expect(queryOf({ ...PAPERS, program: 'mine' })).toMatchObject({
-      query: { controllers: ['rl', 'program'], program: 'mine' },
+      controllers: ['rl', 'program'],
+      program: 'mine',
     });
     expect(queryOf({ ...PAPERS, controllers: [], program: 'mine' })).toMatchObject({
-      query: { controllers: ['program'], program: 'mine' },
+      controllers: ['program'],
+      program: 'mine',
     });
   });
 
@@ -51,31 +39,9 @@ describe('queryOf', () => {
     const vary = [{ name: 'threshold_m', from: '1', to: '4', count: '4' }] as const;
     const made = queryOf({ ...PAPERS, vary });
     expect(made).toMatchObject({
-      query: { vary: [{ name: 'threshold_m', from: 0.01, to: 0.04, count: 4 }] },
+      vary: [{ name: 'threshold_m', from: 0.01, to: 0.04, count: 4 }],
     });
-    expect('query' in made && sizeWords(made.query)).toBe('8 cells, 240 episodes');
-    for (const wrong of [{ from: '' }, { to: 'far' }, { count: '2.5' }]) {
-      const one = queryOf({ ...PAPERS, vary: [{ ...vary[0], ...wrong }] });
-      expect(one).toHaveProperty('faults.vary');
-    }
-  });
-
-  it('reports every field that is empty or not a number', () => {
-    const bad = {
-      ...PAPERS,
-      controllers: [],
-      maps: [],
-      disturbances: [],
-      episodes: '',
-      seed: '1.5',
-    };
-    const made = queryOf(bad);
-    expect('faults' in made && Object.keys(made.faults).sort()).toEqual(
-      ['controllers', 'disturbances', 'episodes', 'maps', 'seed'].sort(),
-    );
-    for (const seed of ['-1', '9007199254740993', '1e3', '']) {
-      expect(queryOf({ ...PAPERS, seed })).toHaveProperty('faults.seed');
-    }
+    expect(sizeWords(made)).toBe('8 cells, 240 episodes');
   });
 });
 
@@ -90,33 +56,15 @@ describe('chooseControllers', () => {
   });
 });
 
-describe('faultsOf', () => {
-  it('shows a refusal at its field', () => {
-    expect(faultsOf({ detail: 'no', field: 'maps[1]' })).toEqual({ maps: 'no' });
-    expect(faultsOf({ detail: 'gone', field: 'program' })).toEqual({ controllers: 'gone' });
-    expect(faultsOf({ detail: 'no', field: 'episodes' })).toEqual({ episodes: 'no' });
-  });
-
-  it('shows other refusals at the form', () => {
-    expect(faultsOf({ detail: 'full' })).toEqual({ form: 'full' });
-    expect(faultsOf({ detail: 'no', field: 'Host' })).toEqual({ form: 'no' });
-  });
-});
-
-describe('toggled', () => {
-  it('keeps the given order', () => {
-    expect(toggled(['a', 'b', 'c'], ['c'], 'a', true)).toEqual(['a', 'c']);
-    expect(toggled(['a', 'b', 'c'], ['c', 'a'], 'c', false)).toEqual(['a']);
-    expect(toggled(['a', 'b'], ['a'], 'a', true)).toEqual(['a']);
-  });
-});
-
 describe('the size', () => {
   it('is given in cells and episodes', () => {
     expect(sizeWords(PAPERS_QUERY)).toBe('2 cells, 60 episodes');
     expect(sizeWords({ ...PAPERS_QUERY, disturbances: [0], episodes: 1 })).toBe(
       '1 cell, 1 episode',
     );
+    for (const wrong of [{ maps: [] }, { episodes: NaN }]) {
+      expect(sizeWords({ ...PAPERS_QUERY, ...wrong })).toBeUndefined();
+    }
   });
 
   it('has no duration before a measurement', () => {

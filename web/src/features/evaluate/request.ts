@@ -3,12 +3,9 @@
 import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
 import { CONTROLLERS, type NumberName } from '../../lab/parameters';
 import { counted } from '../../ui/format';
-import { numberFault, numberOf } from '../../ui/number';
+import { numberOf } from '../../ui/fields/number';
 import { secondsAnEpisode } from './progress';
 import { numberField } from './varied';
-
-export type Field =
-  'controllers' | 'rl_policy' | 'maps' | 'disturbances' | 'vary' | 'episodes' | 'seed';
 
 /** A parameter that takes several values, as typed. */
 export interface VariedDraft {
@@ -45,79 +42,30 @@ export const PAPERS: Draft = {
   seed: '1',
 };
 
-export type Faults = Readonly<Partial<Record<Field | 'form', string | undefined>>>;
-
-const WHOLE = /^\d+$/;
-
-const isNumber = (text: string): boolean => numberFault(text) === undefined;
-
 /** From the shown unit, without the noise of binary fractions. */
 function stored(name: NumberName, text: string): number {
   return Number((numberOf(text) / numberField(name).scale).toPrecision(12));
 }
 
-/** The query, or the faults of the draft. The server checks the limits. */
-export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Faults } {
-  const faults: Partial<Record<Field, string>> = {};
-  if (draft.controllers.length === 0 && draft.program === '')
-    faults.controllers = 'Choose at least one controller.';
-  if (draft.maps.length === 0) faults.maps = 'Choose at least one map.';
-  if (draft.disturbances.length === 0)
-    faults.disturbances = 'Choose at least one number of disturbances.';
-  const wrong = draft.vary.find(
-    ({ from, to, count }) => !isNumber(from) || !isNumber(to) || !WHOLE.test(count),
-  );
-  if (wrong)
-    faults.vary = `${numberField(wrong.name).label}: type the first value, the last one and how many.`;
-  if (!WHOLE.test(draft.episodes))
-    faults.episodes = 'Episodes must be a whole number from 1 to 1000.';
-  const seed = Number(draft.seed);
-  if (!WHOLE.test(draft.seed) || !Number.isSafeInteger(seed)) {
-    faults.seed = 'The seed must be a whole number from 0 to 9007199254740991.';
-  }
-  if (Object.keys(faults).length > 0) return { faults };
+/** The body of the request, from a draft without faults. */
+export function queryOf(draft: Draft): EvaluationQuery {
   const { controllers, rl_policy, program, maps, disturbances } = draft;
   return {
-    query: {
-      controllers: program === '' ? [...controllers] : [...controllers, 'program'],
-      maps: [...maps],
-      disturbances: [...disturbances],
-      episodes: Number(draft.episodes),
-      seed,
-      // Without RL there is no policy to name.
-      rl_policy: controllers.includes('rl') ? rl_policy : 'auto',
-      program: program === '' ? null : program,
-      vary: draft.vary.map(({ name, from, to, count }) => ({
-        name,
-        from: stored(name, from),
-        to: stored(name, to),
-        count: Number(count),
-      })),
-    },
+    controllers: program === '' ? [...controllers] : [...controllers, 'program'],
+    maps: [...maps],
+    disturbances: [...disturbances],
+    episodes: numberOf(draft.episodes),
+    seed: numberOf(draft.seed),
+    // Without RL there is no policy to name.
+    rl_policy: controllers.includes('rl') ? rl_policy : 'auto',
+    program: program === '' ? null : program,
+    vary: draft.vary.map(({ name, from, to, count }) => ({
+      name,
+      from: stored(name, from),
+      to: stored(name, to),
+      count: numberOf(count),
+    })),
   };
-}
-
-const FIELDS: readonly Field[] = [
-  'controllers',
-  'rl_policy',
-  'maps',
-  'disturbances',
-  'vary',
-  'episodes',
-  'seed',
-];
-
-/** The server's refusal at the field that it names: `maps[1]` belongs to the maps, `program` to the controllers. */
-export function faultsOf(refusal: { detail: string; field?: string | undefined }): Faults {
-  const named = refusal.field?.replace(/\[.*$/, '');
-  const name = named === 'program' ? 'controllers' : named;
-  const field = FIELDS.find((one) => one === name) ?? 'form';
-  return { [field]: refusal.detail };
-}
-
-/** Adds or removes `item`, in the order of `all`. */
-export function toggled<T>(all: readonly T[], chosen: readonly T[], item: T, on: boolean): T[] {
-  return all.filter((one) => (one === item ? on : chosen.includes(one)));
 }
 
 /** Controllers and the program after a choice among both: another program takes the place of the last one. */
@@ -138,10 +86,12 @@ function combinations({ vary }: EvaluationQuery): number {
   return vary.reduce((product, { count }) => product * count, 1);
 }
 
-/** `4 cells, 120 episodes`. */
-export function sizeWords(query: EvaluationQuery): string {
+/** `4 cells, 120 episodes`; undefined if there are none. */
+export function sizeWords(query: EvaluationQuery): string | undefined {
   const cells =
     query.controllers.length * query.maps.length * query.disturbances.length * combinations(query);
+  // Not a number either, as long as one is being typed.
+  if (!(cells * query.episodes > 0)) return undefined;
   return `${counted(cells, 'cell')}, ${counted(cells * query.episodes, 'episode')}`;
 }
 

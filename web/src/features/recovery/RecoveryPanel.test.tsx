@@ -9,14 +9,16 @@ it('sends what is chosen, and shows why the server refuses it', async () => {
   const { lab, server } = fakeLab({
     'POST /api/recoveries': (body) => {
       query = JSON.parse(body) as RecoveryQuery;
-      return refusal(query.grid < 4 ? 'grid is 3, it must be 4 to 96' : 'no goal is set');
+      return query.grid > 24
+        ? refusal('grid makes 200000 trials', 'grid')
+        : refusal('no goal is set', 'tick');
     },
   });
   show(() => (
     <RecoveryPanel lab={lab} theme={() => 'dark'} tools={document.createElement('div')} />
   ));
   const start = page.getByRole('button', { name: /^Map recovery from/ });
-  const refused = page.getByText(/no goal is set|it must be/);
+  const refused = page.getByText(/^(no goal is set|grid makes)/);
   await expect.element(start).toBeEnabled();
   server.state({ tick: 250, newest_tick: 250, sim_time_s: 2 });
   await expect.element(start).toHaveTextContent('Map recovery from 2.0 s');
@@ -24,14 +26,22 @@ it('sends what is chosen, and shows why the server refuses it', async () => {
   await expect.element(refused).toHaveTextContent('no goal is set');
   expect(query).toMatchObject({ session: 'main', tick: 250, kind: 'place', grid: 24 });
 
-  await page.getByLabelText('Columns').fill('3');
+  const columns = page.getByLabelText('Columns');
+  await columns.fill('3');
+  await start.click();
+  await expect
+    .element(columns)
+    .toHaveAccessibleDescription('“3” must be a whole number from 4 to 96.');
+  expect(query).toMatchObject({ grid: 24 });
+  await columns.fill('96');
   await page.getByLabelText('Try RL').click();
   await start.click();
-  await expect.element(refused).toHaveTextContent('grid is 3, it must be 4 to 96');
-  expect(query).toMatchObject({ grid: 3, controllers: ['errt', 'attractor'] });
+  await expect.element(columns).toHaveAccessibleDescription('grid makes 200000 trials');
+  expect(query).toMatchObject({ grid: 96, controllers: ['errt', 'attractor'] });
 
   for (const name of ['Try ERRT', 'Try Attractor']) await page.getByLabelText(name).click();
-  await expect.element(start).toBeDisabled();
+  await start.click();
+  await expect.element(page.getByText('Choose at least one controller.')).toBeVisible();
 });
 
 it('shows a recovery map of another map only when it is chosen, and says so', async () => {

@@ -7,7 +7,7 @@ import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { ByHand, Notices, Session, Trial } from '../../lab/slices';
 import type { RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
 import { clock, counted } from '../../ui/format';
-import { ServerSelect } from '../../ui/ServerSelect';
+import { ChoiceField } from '../../ui/fields/fields';
 import { CellCard } from './CellCard';
 import { basinWords, cellAt, cellWords, rowsOf } from './cells';
 import { looksOf } from './looks';
@@ -46,11 +46,10 @@ function Arrange(props: { report: RecoveryReport }): JSX.Element {
     return [['each', 'each controller'] as [Arrangement, string], ...pairs];
   });
   return (
-    <ServerSelect
+    <ChoiceField<string>
       label="Show"
       value={String(store.arrangement())}
       options={options().map(([one, words]) => [String(one), words] as const)}
-      disabled={false}
       onChoose={(value) => {
         const found = options().find(([one]) => String(one) === value);
         if (found) store.setArrangement(found[0]);
@@ -166,11 +165,10 @@ function Earlier(props: {
   ];
   return (
     <Show when={options().length > 1}>
-      <ServerSelect
+      <ChoiceField<string>
         label="Recovery map"
         value={props.shown ?? ''}
         options={options()}
-        disabled={false}
         onChoose={(id) => {
           store.setWanted(id);
           store.setChosen(undefined);

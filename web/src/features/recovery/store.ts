@@ -2,6 +2,7 @@
 
 import { createRoot, createSignal } from 'solid-js';
 import type { Vec2 } from '../../lab/geometry';
+import { RECOVERY_DEFAULTS } from '../../net/forms.gen';
 import type { ControllerName, RecoveryKind, RecoveryReport } from '../../net/protocol.gen';
 
 export interface Draft {
@@ -27,10 +28,10 @@ function createStore() {
   const [draft, setDraft] = createSignal<Draft>({
     kind: 'place',
     left_out: [],
-    grid: '24',
-    repeats: '3',
-    within_s: '60',
-    seed: '1',
+    grid: String(RECOVERY_DEFAULTS.grid),
+    repeats: String(RECOVERY_DEFAULTS.repeats),
+    within_s: String(RECOVERY_DEFAULTS.within_s),
+    seed: String(RECOVERY_DEFAULTS.seed),
   });
   const [wanted, setWanted] = createSignal<string>();
   const [report, setReport] = createSignal<RecoveryReport>();

@@ -11,7 +11,7 @@ import { policyName } from '../../lab/parameters';
 import { shareWords } from '../../lab/trainingStage';
 import { Curves } from './Curves';
 import { withLast } from './curves';
-import { changeWords, RECIPE_WORDS } from './recipes';
+import { changeWords, recipeOf } from './recipes';
 import { policyFile } from './trainings';
 import { addressOf } from '../../net/base';
 
@@ -32,7 +32,7 @@ interface RowProps extends PolicyDeeds {
 }
 
 function originWords({ query, elapsed_s }: PolicyOrigin): string {
-  const recipe = RECIPE_WORDS.find(([id]) => id === query.recipe)?.[1].toLowerCase() ?? '';
+  const recipe = recipeOf(query.recipe).label.toLowerCase();
   const start = query.start_from === null ? 'random weights' : policyName(query.start_from);
   const changes = changeWords(query);
   const changed = changes.length > 0 ? ` with ${changes.join(', ')}` : '';

@@ -1,20 +1,22 @@
 // The form for a new training.
 
-import { For, Show, createMemo, createSignal, createUniqueId, type JSX } from 'solid-js';
-import type { PolicySummary, RecipeName } from '../../net/protocol.gen';
-import { Refusal } from '../../net/requests';
+import { For, Show, createMemo, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
-import { Fault } from './Fault';
-import { faultWords } from './faults';
-import { SelectField, TextField } from './fields';
+import { RECIPES } from '../../net/forms.gen';
+import type { PolicySummary } from '../../net/protocol.gen';
+import { Form } from '../../ui/fields/Form';
+import {
+  ChoiceField,
+  FlagField,
+  NumberField,
+  type Option,
+  TextField,
+} from '../../ui/fields/fields';
 import {
   BLANK,
-  type Draft,
-  type Faults,
-  faultsOf,
   NAME_LENGTH,
+  nameFault,
   queryOf,
-  RECIPE_WORDS,
   SETTINGS,
   settingText,
   suggestedName,
@@ -22,7 +24,6 @@ import {
 } from './recipes';
 import type { TrainState } from './state';
 import { startTraining } from './trainings';
-import { showWrongField } from './wrongField';
 
 interface StartProps {
   readonly lab: Session & Trial;
@@ -31,18 +32,14 @@ interface StartProps {
   readonly onStarted: () => void;
 }
 
-type Options = readonly (readonly [value: string, label: string])[];
+type Options = readonly Option[];
 
 /** Options that stay the same must not be replaced while the user chooses. */
 const sameOptions = { equals: (a: Options, b: Options) => a.join('\n') === b.join('\n') };
 
 export function StartPanel(props: StartProps): JSX.Element {
   const { lab, state } = props;
-  const why = createUniqueId();
-  let form!: HTMLFormElement;
   let folded!: HTMLDetailsElement;
-  const [faults, setFaults] = createSignal<Faults>({});
-  const [isBusy, setBusy] = createSignal(false);
   const draft = state.draft;
   const maps = (): readonly string[] => lab.catalog.maps() ?? [];
   const policies = (): readonly PolicySummary[] => lab.catalog.policies() ?? [];
@@ -68,90 +65,66 @@ export function StartPanel(props: StartProps): JSX.Element {
     [],
     sameOptions,
   );
-  // A changed field loses its fault.
-  const change = (field: string, next: Draft): void => {
-    state.setDraft(next);
-    setFaults({ ...faults(), [field]: undefined, form: undefined });
-  };
-  const refuse = (wrong: Faults): void => {
-    setFaults(wrong);
-    showWrongField(form);
-  };
   const changed = (): number => Object.keys(draft().settings).length;
   const start = async (): Promise<void> => {
-    const made = queryOf(draft(), map(), name());
-    if ('faults' in made) {
-      refuse(made.faults);
-      return;
-    }
-    setFaults({});
-    setBusy(true);
-    try {
-      const id = await startTraining(made.query);
-      // The next one gets a name of its own.
-      const { map, startFrom, recipe, settings, seed } = draft();
-      const same = { startFrom, recipe, settings, seed };
-      state.setDraft(map === undefined ? same : { ...same, map });
-      state.compare(undefined);
-      state.choose(id);
-      folded.open = false;
-      props.onStarted();
-    } catch (reason) {
-      refuse(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
-    }
-    setBusy(false);
+    const id = await startTraining(queryOf(draft(), map(), name()));
+    // The next one gets a name of its own.
+    const { map: chosen, startFrom, recipe, settings, seed } = draft();
+    const same = { startFrom, recipe, settings, seed };
+    state.setDraft(chosen === undefined ? same : { ...same, map: chosen });
+    state.compare(undefined);
+    state.choose(id);
+    folded.open = false;
+    props.onStarted();
   };
   return (
-    <form
-      ref={form}
+    // A training takes minutes: only the button starts one.
+    <Form
       class="train-form"
-      novalidate
-      onKeyDown={(event) => {
-        // A training takes minutes: only the button starts one.
-        if (event.key === 'Enter' && event.target instanceof HTMLInputElement)
-          event.preventDefault();
-      }}
-      onSubmit={(event) => {
-        event.preventDefault();
-        if (lab.canOperate() && !isBusy()) void start();
-      }}
+      byButtonOnly
+      send={start}
+      button="Train"
+      buttonName={`Train ${name()}`}
+      disabled={!lab.canOperate()}
+      why="Only the operator can start and change trainings."
     >
-      <SelectField
+      <ChoiceField
+        name="map"
         label="Map"
         value={map()}
         options={mapOptions()}
-        fault={faults().map}
-        onInput={(value) => {
-          change('map', { ...draft(), map: value });
+        onChoose={(value) => {
+          state.setDraft({ ...draft(), map: value });
         }}
       />
       <TextField
+        name="name"
         label="Policy name"
         value={name()}
         maxLength={NAME_LENGTH}
-        fault={faults().name}
+        check={() => nameFault(name())}
         onInput={(value) => {
-          change('name', { ...draft(), name: value });
+          state.setDraft({ ...draft(), name: value });
         }}
       />
-      <SelectField
+      <ChoiceField
+        name="start_from"
         label="Start from"
+        help="A policy that is trained already learns another map faster."
         value={draft().startFrom}
         options={starts()}
-        help="A policy that is trained already learns another map faster."
-        fault={faults().start_from}
-        onInput={(startFrom) => {
-          change('start_from', { ...draft(), startFrom });
+        onChoose={(startFrom) => {
+          state.setDraft({ ...draft(), startFrom });
         }}
       />
-      <SelectField
+      <ChoiceField
+        name="recipe"
         label="Recipe"
+        help={RECIPES.map(({ label, help }) => `${label}: ${help}`).join('\n')}
         value={draft().recipe}
-        options={RECIPE_WORDS.map(([id, label]) => [id, label])}
-        help={RECIPE_WORDS.find(([id]) => id === draft().recipe)?.[2]}
-        fault={faults().recipe}
-        onInput={(recipe) => {
-          change('recipe', { ...draft(), recipe: recipe as RecipeName, settings: {} });
+        options={RECIPES.map(({ name: recipe, label }) => [recipe, label] as const)}
+        onChoose={(recipe) => {
+          state.setDraft({ ...draft(), recipe, settings: {} });
         }}
       />
       <details ref={folded} class="train-settings">
@@ -161,69 +134,53 @@ export function StartPanel(props: StartProps): JSX.Element {
             <span class="count"> {changed()} changed</span>
           </Show>
         </summary>
-        <For each={SETTINGS}>
-          {(setting) => {
-            const field = `settings.${setting.name}`;
-            const shared = {
-              label: setting.label,
-              help: setting.help,
-              get value() {
-                return settingText(draft(), setting.name);
-              },
-              get fault() {
-                return faults()[field];
-              },
-              onInput: (text: string) => {
-                change(field, withSetting(draft(), setting.name, text));
-              },
-            };
-            return setting.kind === 'choice' ? (
-              <SelectField {...shared} options={setting.options} />
-            ) : (
-              <TextField {...shared} number={setting} />
-            );
-          }}
-        </For>
-        <TextField
-          label="Seed"
-          value={draft().seed}
-          number={{ min: 0, step: 1, isWhole: true }}
-          help="The same seed and the same settings give the same training."
-          fault={faults().seed}
-          onInput={(seed) => {
-            change('seed', { ...draft(), seed });
-          }}
-        />
+        <div class="train-columns">
+          <For each={SETTINGS}>
+            {(setting) => {
+              const text = (): string => settingText(draft(), setting.name);
+              const change = (value: string): void => {
+                state.setDraft(withSetting(draft(), setting.name, value));
+              };
+              switch (setting.kind) {
+                case 'number':
+                  return <NumberField {...setting} value={text()} onInput={change} />;
+                case 'choice':
+                  return <ChoiceField<string> {...setting} value={text()} onChoose={change} />;
+                case 'flag':
+                  return (
+                    <FlagField
+                      {...setting}
+                      value={text() === 'true'}
+                      onChoose={(value) => {
+                        change(String(value));
+                      }}
+                    />
+                  );
+              }
+            }}
+          </For>
+          <NumberField
+            name="seed"
+            label="Seed"
+            help="The same seed and the same settings give the same training."
+            min={0}
+            isWhole
+            value={draft().seed}
+            onInput={(seed) => {
+              state.setDraft({ ...draft(), seed });
+            }}
+          />
+        </div>
         <button
           type="button"
           class="small"
           onClick={() => {
             state.setDraft({ ...draft(), settings: {}, seed: BLANK.seed });
-            setFaults({});
           }}
         >
           Reset the settings
         </button>
       </details>
-      <div class="train-submit">
-        <button
-          type="submit"
-          class="primary"
-          aria-label={`Train ${name()}`}
-          disabled={!lab.canOperate() || isBusy()}
-          aria-describedby={lab.canOperate() ? undefined : why}
-        >
-          Train
-        </button>
-        <Show when={!lab.canOperate()}>
-          <span id={why} class="hint">
-            Only the operator can start and change trainings.
-          </span>
-        </Show>
-        {/* Announced at the field itself. */}
-        <Show when={faultWords(faults())}>{(words) => <p class="refusal">{words()}</p>}</Show>
-      </div>
-      <Fault id="training-refused" text={faults().form} />
-    </form>
+    </Form>
   );
 }

@@ -30,7 +30,9 @@ it('explains itself, and refuses a wrong name or setting at its field', async ()
     .element(page.getByRole('region', { name: 'What happens here' }))
     .toHaveTextContent('Press Train');
   const refused = (): string[] =>
-    [...document.querySelectorAll('.train-field .refusal')].map((one) => one.textContent);
+    [...document.querySelectorAll('.form-row > .refusal')]
+      .map((one) => one.textContent)
+      .filter((text) => text !== '');
 
   await name.fill('My policy');
   await submit.click();

@@ -3,7 +3,6 @@
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import type { TrainingSummary } from '../../net/protocol.gen';
 import { ConfirmButton } from '../../ui/ConfirmButton';
-import { Fault } from './Fault';
 import { isActive, stageSentence, stageWords, updateWords } from '../../lab/trainingStage';
 import { discardTraining, pauseTraining, resumeTraining } from './trainings';
 import { isOpen, type Wish } from './wish';
@@ -206,7 +205,9 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
           </button>
         </Show>
       </div>
-      <Fault id={`${props.summary.id}-refused`} text={refusal()} />
+      <p class="refusal" role="alert">
+        {refusal()}
+      </p>
     </li>
   );
 }

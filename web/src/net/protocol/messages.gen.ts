@@ -5,6 +5,7 @@ import type { ChallengeSummary } from './challenges.gen';
 import type { ComparisonMessage } from './comparison.gen';
 import type { EvaluationSummary } from './evaluations.gen';
 import type { ControllerName, Disturbance, PositionerKind, Scripted } from './experiment.gen';
+import type { Happening, RefusalCode, Told } from './facts.gen';
 import type { OverlayMessage, SeenMessage } from './layers.gen';
 import type { PolicySummary } from './policies.gen';
 import type { ProgramStanding } from './programs.gen';
@@ -49,7 +50,7 @@ export type Role = "operator" | "viewer";
 /**
  * What the server sends as text.
  */
-export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "catalog" } & CatalogMessage | { "type": "training_points" } & TrainingPointsMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & ErrorMessage;
+export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "catalog" } & CatalogMessage | { "type": "training_points" } & TrainingPointsMessage | { "type": "done" } & DoneMessage | { "type": "refused" } & RefusedMessage | { "type": "error" } & SessionError;
 
 /**
  * See `ServerMessage::Hello`.
@@ -114,28 +115,24 @@ export type EventKind = "switch" | "disturbance" | "goal" | "reached" | "deliver
 /**
  * See `ServerMessage::Event`.
  */
-export type EventMessage = { tick: number, sim_time_s: number, kind: EventKind, 
-/**
- * One sentence.
- */
-text: string, 
+export type EventMessage = { tick: number, sim_time_s: number, kind: EventKind, what: Told<Happening>, 
 /**
  * Part of the past of a run that the session has returned to; omitted otherwise.
  */
 again?: boolean, };
 
 /**
- * See `ServerMessage::Error`; an HTTP problem has the same fields.
+ * See `ServerMessage::Error`.
  */
-export type ErrorMessage = { 
-/**
- * For programs, such as `in_wall`.
- */
-code: string, 
+export type SessionError = { code: RefusalCode, 
 /**
  * For people: names the field and the value.
  */
-message: string, field?: string, };
+message: string, field?: string, 
+/**
+ * What was refused, by name.
+ */
+values: Record<string, unknown>, };
 
 /**
  * A list of the server, whole, with the items of its HTTP resource.
@@ -176,11 +173,7 @@ export type RefusedMessage = {
 /**
  * That of the message.
  */
-id: number, 
-/**
- * For programs, such as `in_wall`.
- */
-code: string, 
+id: number, code: RefusalCode, 
 /**
  * The field of the message that it is about.
  */

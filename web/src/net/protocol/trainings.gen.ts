@@ -15,37 +15,41 @@ export type FusionName = "early" | "late";
  */
 export type TrainingSettings = { 
 /**
- * Updates of the network.
+ *How often the network is corrected: more updates take longer and end better.
  */
 updates: number | null, 
 /**
- * Learning rate of Adam in the first half.
+ *How far each update moves the network in the first half: too small is slow, too large forgets.
  */
 learning_rate: number | null, 
 /**
- * Discount per step.
+ *How much a reward counts one step later: near 1, the goal is felt from far away.
  */
 discount: number | null, 
 /**
- * Share of random actions.
+ *The share of steps in a random direction, so that the robot finds new routes.
  */
 exploration: number | null, 
 /**
- * Whether the network's noisy layers explore.
+ *Noise inside the network makes it try other steps where it is not sure.
  */
 noisy: boolean | null, 
 /**
- * Reward per step of true distance gained.
+ *Reward for each step that shortens the path to the goal: it shows the direction early.
  */
 progress_reward: number | null, 
 /**
- * Subtracted at each step.
+ *Subtracted at each step, so that short paths are worth more.
  */
 step_penalty: number | null, 
 /**
- * Steps of a return.
+ *How many real rewards are added up before the network’s own estimate takes over.
  */
-n_step: number | null, fusion: FusionName | null, };
+n_step: number | null, 
+/**
+ *Where the network joins image and goal: early is that of the paper, late learns faster.
+ */
+fusion: FusionName | null, };
 
 /**
  * Body of `POST /api/trainings`.

@@ -1,6 +1,6 @@
 // The field for a number. Browsers read `0,5` in a field of type `number` as 5, or as an empty one.
 
-import { createEffect, createSignal, createUniqueId, untrack, type JSX } from 'solid-js';
+import { Show, createEffect, createSignal, createUniqueId, untrack, type JSX } from 'solid-js';
 import { numberFault, numberOf, stepped, type Steps } from './number';
 
 /** A text that is not a number stays, and the field says why. */
@@ -9,19 +9,21 @@ export function NumberInput(
     value: number | string;
     id?: string;
     /** Without a `label` element. */
-    label?: string;
+    label?: string | undefined;
     title?: string;
     style?: JSX.CSSProperties;
-    disabled?: boolean;
+    disabled?: boolean | undefined;
     /** Outside of the limits is a fault, too. */
     isStrict?: boolean;
     /** What the form finds wrong. */
     isInvalid?: boolean;
-    describedBy?: string;
+    describedBy?: string | undefined;
     /** Each edit, as typed. */
-    onInput?: (text: string) => void;
+    onInput?: ((text: string) => void) | undefined;
     /** The number, when its edit ends. The shown one is `value` again. */
-    onNumber?: (value: number) => void;
+    onNumber?: ((value: number) => void) | undefined;
+    /** Says what is wrong; otherwise it is said below the input. */
+    onFault?: (fault: string | undefined) => void;
     onBlur?: () => void;
   },
 ): JSX.Element {
@@ -30,9 +32,13 @@ export function NumberInput(
   const [isSaid, setSaid] = createSignal(false);
   const faultId = createUniqueId();
   const fault = (): string | undefined => numberFault(text(), props.isStrict ? props : {});
+  const say = (isWrong: boolean): void => {
+    setSaid(isWrong);
+    props.onFault?.(isWrong ? fault() : undefined);
+  };
   const read = (): void => {
     setText(input.value);
-    setSaid(false);
+    say(false);
     // A form with a fault is not submitted.
     input.setCustomValidity(fault() ?? '');
   };
@@ -47,7 +53,7 @@ export function NumberInput(
     if (props.value !== input.value && !Number.isNaN(props.value) && !isTyped) untrack(show);
   });
   const commit = (): void => {
-    setSaid(fault() !== undefined);
+    say(fault() !== undefined);
     if (isSaid() || !props.onNumber) return;
     props.onNumber(numberOf(input.value));
     show();
@@ -71,7 +77,7 @@ export function NumberInput(
         aria-valuemin={props.min}
         aria-valuemax={props.max}
         aria-invalid={props.isInvalid === true || fault() !== undefined}
-        aria-describedby={isSaid() ? faultId : props.describedBy}
+        aria-describedby={isSaid() && !props.onFault ? faultId : props.describedBy}
         data-step={props.step}
         title={props.title}
         style={props.style}
@@ -92,9 +98,11 @@ export function NumberInput(
         onChange={commit}
         onBlur={props.onBlur}
       />
-      <span id={faultId} class="number-fault" role="alert">
-        {isSaid() ? fault() : ''}
-      </span>
+      <Show when={!props.onFault}>
+        <span id={faultId} class="number-fault" role="alert">
+          {isSaid() ? fault() : ''}
+        </span>
+      </Show>
     </>
   );
 }

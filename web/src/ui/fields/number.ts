@@ -28,10 +28,9 @@ export function numberFault(text: string, limits: Limits = {}): string | undefin
   const value = numberOf(text);
   if (!Number.isFinite(value)) return text === '' ? 'Type a number.' : `“${text}” is not a number.`;
   if (value >= min && value <= max && (!isWhole || Number.isSafeInteger(value))) return undefined;
-  const range = [min > -Infinity ? `from ${min}` : '', max < Infinity ? `up to ${max}` : ''].join(
-    ' ',
-  );
-  return `“${text}” must be a ${isWhole ? 'whole ' : ''}number ${range}`.trim() + '.';
+  const first = min > -Infinity ? `from ${min} ` : '';
+  const last = max < Infinity ? `${first === '' ? 'up ' : ''}to ${max}` : '';
+  return `“${text}” must be a ${isWhole ? 'whole ' : ''}number ${first}${last}`.trim() + '.';
 }
 
 export interface Steps extends Limits {

@@ -46,7 +46,7 @@ it.each([
 });
 
 it('says which numbers are allowed', () => {
-  expect(numberFault('0', { min: 0.01, max: 2 })).toBe('“0” must be a number from 0.01 up to 2.');
+  expect(numberFault('0', { min: 0.01, max: 2 })).toBe('“0” must be a number from 0.01 to 2.');
   expect(numberFault('1,5', { min: 0, isWhole: true })).toBe(
     '“1,5” must be a whole number from 0.',
   );

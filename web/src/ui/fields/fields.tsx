@@ -1,0 +1,205 @@
+// The kinds of fields.
+
+import { For, createSignal, type JSX } from 'solid-js';
+import { NumberInput } from './NumberInput';
+import { numberFault, type Steps } from './number';
+import { Group, Row, type FieldProps } from './Row';
+
+export type Option<T extends string = string> = readonly [value: T, label: string];
+
+/** A slider beside the number; both show the same value. */
+interface Slider {
+  readonly value: number;
+  /** While it moves. The number is given when it is released. */
+  readonly onMove: (value: number) => void;
+  readonly onCancel: () => void;
+}
+
+export function NumberField(
+  props: FieldProps &
+    Steps & {
+      value: number | string;
+      slider?: Slider;
+      /** Each edit, as typed. A form with a number outside its limits is not sent. */
+      onInput?: (text: string) => void;
+      /** The number, when its edit ends. */
+      onNumber?: (value: number) => void;
+    },
+): JSX.Element {
+  const [fault, setFault] = createSignal<string>();
+  return (
+    <Row
+      {...props}
+      fault={fault()}
+      check={() => props.onInput && numberFault(String(props.value), props)}
+      below={
+        props.slider && (
+          <input
+            type="range"
+            aria-label={`${props.label} slider`}
+            min={props.min}
+            max={props.max}
+            step={props.step}
+            value={props.slider.value}
+            disabled={props.disabled}
+            onInput={(event) => props.slider?.onMove(event.currentTarget.valueAsNumber)}
+            onPointerCancel={() => props.slider?.onCancel()}
+            onChange={(event) => props.onNumber?.(event.currentTarget.valueAsNumber)}
+          />
+        )
+      }
+    >
+      {(input) => (
+        <NumberInput
+          id={input.id}
+          label={input['aria-label']}
+          describedBy={input['aria-describedby']}
+          isInvalid={input['aria-invalid']}
+          min={props.min}
+          max={props.max}
+          step={props.step}
+          isWhole={props.isWhole}
+          isStrict={props.onInput !== undefined}
+          value={props.value}
+          disabled={input.disabled}
+          onFault={setFault}
+          onInput={(text) => props.onInput?.(text)}
+          onNumber={props.onNumber}
+        />
+      )}
+    </Row>
+  );
+}
+
+export function ChoiceField<T extends string>(
+  props: FieldProps & {
+    value: T;
+    options?: readonly Option<T>[];
+    /** Further options, under headings. */
+    groups?: readonly { readonly title: string; readonly options: readonly Option<T>[] }[];
+    onChoose: (value: T) => void;
+  },
+): JSX.Element {
+  const list = (options: readonly Option<T>[] | undefined): JSX.Element => (
+    <For each={options}>
+      {([value, label]) => (
+        <option value={value} selected={value === props.value}>
+          {label}
+        </option>
+      )}
+    </For>
+  );
+  return (
+    <Row {...props}>
+      {(input) => (
+        <select
+          {...input}
+          onChange={(event) => {
+            props.onChoose(event.currentTarget.value as T);
+          }}
+        >
+          {list(props.options)}
+          <For each={props.groups}>
+            {({ title, options }) => <optgroup label={title}>{list(options)}</optgroup>}
+          </For>
+        </select>
+      )}
+    </Row>
+  );
+}
+
+export function FlagField(
+  props: FieldProps & { value: boolean; onChoose: (value: boolean) => void },
+): JSX.Element {
+  return (
+    <Row {...props}>
+      {(input) => (
+        <input
+          {...input}
+          type="checkbox"
+          checked={props.value}
+          onChange={(event) => {
+            props.onChoose(event.currentTarget.checked);
+          }}
+        />
+      )}
+    </Row>
+  );
+}
+
+export function TextField(
+  props: FieldProps & {
+    value: string;
+    maxLength?: number;
+    placeholder?: string;
+    check?: () => string | undefined;
+    onInput: (text: string) => void;
+  },
+): JSX.Element {
+  return (
+    <Row {...props}>
+      {(input) => (
+        <input
+          {...input}
+          type="text"
+          value={props.value}
+          maxLength={props.maxLength}
+          placeholder={props.placeholder}
+          autocomplete="off"
+          autocapitalize="off"
+          spellcheck={false}
+          onInput={(event) => {
+            props.onInput(event.currentTarget.value);
+          }}
+        />
+      )}
+    </Row>
+  );
+}
+
+/** Any of a list; it must not be empty. */
+export function CheckField<T extends string | number>(
+  props: FieldProps & {
+    all: readonly T[];
+    chosen: readonly T[];
+    text?: (item: T) => string;
+    /** What is done with them, before each accessible name. */
+    verb?: string;
+    /** What to choose, if none is. */
+    missing?: string;
+    onChoose: (chosen: T[]) => void;
+  },
+): JSX.Element {
+  const text = (item: T): string => props.text?.(item) ?? String(item);
+  return (
+    <Group
+      {...props}
+      value={String(props.chosen)}
+      check={() => (props.chosen.length > 0 ? undefined : props.missing)}
+    >
+      {(input) => (
+        <For each={props.all}>
+          {(item) => (
+            <label>
+              <input
+                type="checkbox"
+                aria-label={props.verb && `${props.verb} ${text(item)}`}
+                aria-invalid={input['aria-invalid']}
+                checked={props.chosen.includes(item)}
+                disabled={input.disabled}
+                onChange={({ currentTarget: { checked } }) => {
+                  props.onChoose(
+                    props.all.filter((one) =>
+                      one === item ? checked : props.chosen.includes(one),
+                    ),
+                  );
+                }}
+              />
+              {text(item)}
+            </label>
+          )}
+        </For>
+      )}
+    </Group>
+  );
+}
