@@ -16,11 +16,8 @@ const whole_cm = (distance_m: number): string => `${fixed(100 * distance_m, 0)} 
 /** What has happened, without a capital letter and a full stop. */
 export function eventWords(what: Happening): string {
   switch (what.code) {
-    case 'took_over': {
-      const { reason, sub_controller } = what;
-      const far = 'error_m' in reason ? `, ${millimetres(reason.error_m)} away` : '';
-      return `sub-controller ${sub_controller} takes over: ${reasonWords(reason)}${far}`;
-    }
+    case 'took_over':
+      return `sub-controller ${what.sub_controller} takes over: ${reasonWords(what.reason, true)}`;
     case 'taken':
       return 'disturbed: bead taken by hand';
     case 'placed':

@@ -41,21 +41,25 @@ export function phaseWords(phase: PhaseFact): string {
     : phaseName(phase);
 }
 
-/** Why a sub-controller is active. The distances are drawn beside it. */
-export function reasonWords(reason: Reason): string {
+/** Why a sub-controller is active; with the distance, where nothing beside it shows that. */
+export function reasonWords(reason: Reason, hasDistance = false): string {
+  if (reason.code === 'lifted_off')
+    return 'lift-off: the bead hangs on the magnet; take it off by hand, or reset';
+  const far = hasDistance ? `${millimetres(reason.error_m)} away, ` : '';
+  if (reason.code === 'wall_between')
+    return hasDistance
+      ? `fetching: ${far}but a wall is between`
+      : 'fetching, but a wall is between';
+  const limit = millimetres(reason.threshold_m);
   switch (reason.code) {
     case 'lost':
-      return `bead lost: more than T = ${millimetres(reason.threshold_m)}`;
-    case 'wall_between':
-      return 'fetching, but a wall is between';
+      return `bead lost: ${far}more than T = ${limit}`;
     case 'fetching':
-      return `fetching: not yet within ${millimetres(reason.threshold_m)}`;
+      return `fetching: ${far}not yet within ${limit}`;
     case 'fetched':
-      return `bead fetched: within ${millimetres(reason.threshold_m)}`;
+      return `bead fetched: ${far}within ${limit}`;
     case 'held':
-      return `bead held: within T = ${millimetres(reason.threshold_m)}`;
-    case 'lifted_off':
-      return 'lift-off: the bead hangs on the magnet; take it off by hand, or reset';
+      return `bead held: ${far}within T = ${limit}`;
   }
 }
 

@@ -30,7 +30,7 @@ describe('events', () => {
     );
     const fact = { code: 'lost', error_m: 0.155, threshold_m: 0.1, text: '' } as const;
     expect(eventWords({ code: 'took_over', sub_controller: 1, reason: fact })).toBe(
-      'sub-controller 1 takes over: bead lost: more than T = 100 mm, 155 mm away',
+      'sub-controller 1 takes over: bead lost: 155 mm away, more than T = 100 mm',
     );
   });
 });
