@@ -7,7 +7,7 @@ const FLOORS: [(&str, &[&[&str]]); 3] = [
     (
         "core",
         &[
-            &["schema", "names", "panics"],
+            &["schema", "names", "panics", "facts"],
             &["geometry"],
             &["image", "robot", "magnetics", "map"],
             &["plant"],

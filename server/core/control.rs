@@ -1,6 +1,7 @@
 //! Controllers: from the image and the tracked bead to the next tool target. They do not know the true map.
 
 pub mod approach;
+pub mod facts;
 pub mod limits;
 pub mod search;
 pub mod switching;

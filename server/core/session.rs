@@ -8,11 +8,11 @@ mod advance;
 mod apply;
 mod asking;
 mod branch_point;
-mod code;
 #[cfg(test)]
 mod command_tests;
 mod contest;
 mod error;
+mod facts;
 mod history;
 mod inputs;
 mod kept_runs;
@@ -40,8 +40,8 @@ use crate::trial::{
 pub use asking::PROGRAM_ANSWER_WITHIN;
 use asking::ProgramQueries;
 pub use branch_point::{BranchPoint, Progress};
-pub use code::RefusalCode;
 pub use error::CommandError;
+pub use facts::VoidFact;
 use history::History;
 pub use kept_runs::KeptRunSummary;
 pub use opened_case::OpenedCase;

@@ -37,8 +37,9 @@ use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
 use super::socket::{Incoming, Limits, Socket, Upgrade};
 use crate::protocol::{ClientMessage, DoneMessage, Envelope, EventMessage, MAX_MESSAGE_BYTES, Refusal, ServerMessage};
 use crate::session::CommandError;
+use ferry_core::facts::RefusalCode;
 use ferry_core::scenario::ControllerName;
-use ferry_core::session::{Command, RefusalCode};
+use ferry_core::session::Command;
 use ferry_core::trial::{Case, Event};
 
 const LIMITS: Limits = Limits { message_bytes: MAX_MESSAGE_BYTES, ping_every: Duration::from_secs(15) };

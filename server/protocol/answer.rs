@@ -6,7 +6,7 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use crate::session::CommandError;
-use ferry_core::session::RefusalCode;
+use ferry_core::facts::RefusalCode;
 
 /// See `ServerMessage::Done`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]

@@ -10,10 +10,10 @@ use crate::boards::{Entry, Signature};
 use ferry_core::challenge::{
     Attempt, Challenge, ChallengeName, Difficulty, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
 };
-use ferry_core::facts::{Told, VoidFact};
+use ferry_core::facts::Told;
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::Numbers2;
-use ferry_core::session::{Ended, Played, Standing};
+use ferry_core::session::{Ended, Played, Standing, VoidFact};
 
 pub use ghosts::{GhostMessage, Ghosts, MishapMessage, TraceMessage};
 

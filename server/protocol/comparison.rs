@@ -5,12 +5,14 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::OverlayMessage;
+use ferry_core::control::facts::{RefusalFact, TroubleFact};
 use ferry_core::control::switching::Reason;
-use ferry_core::facts::{PhaseFact, RefusalFact, Told, TroubleFact};
+use ferry_core::facts::Told;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
 use ferry_core::schema::{Numbers2, Numbers4};
 use ferry_core::session::{BranchPoint, Progress};
+use ferry_core::trial::PhaseFact;
 use ferry_core::trial::{Moment, Motion, TickRecord};
 use ferry_lab::program::Program;
 

@@ -10,14 +10,16 @@ use super::{
     RefusedMessage, SeenMessage, SessionError, TrainingPointsMessage,
 };
 use crate::session::View;
+use ferry_core::control::facts::{RefusalFact, TroubleFact};
 use ferry_core::control::switching::Reason;
-use ferry_core::facts::{PhaseFact, RefusalFact, Told, TroubleFact};
+use ferry_core::facts::Told;
 use ferry_core::geometry::{Point2, Polygon, Rect};
 use ferry_core::plant::{BEAD_RADIUS_M, PositionerKind};
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::{ControllerName, Parameters, Scenario};
 use ferry_core::schema::{Numbers2, Numbers3, Numbers6};
 use ferry_core::session::{KeptRunSummary, OpenedCase, Scenery};
+use ferry_core::trial::PhaseFact;
 use ferry_ur::{Standing as RobotStanding, TwinStanding};
 
 /// Directions in which the scene gives the capture distances.

@@ -12,9 +12,10 @@ use ts_rs::{Config, TS};
 use super::*;
 use ferry_core::challenge::{Attempt, Difficulty, Loss, Mishap, Score};
 use ferry_core::control::CONTROL_PERIOD_S;
+use ferry_core::control::facts::{RefusalFact, TroubleFact};
 use ferry_core::control::switching::Reason;
 use ferry_core::control::transport::errt::MOST_EDGES;
-use ferry_core::facts::{PhaseFact, RefusalFact, StopCode, Told, TroubleFact, VoidFact};
+use ferry_core::facts::{RefusalCode, Told};
 use ferry_core::geometry::{Polygon, Rect};
 use ferry_core::image::VIEW_PX;
 use ferry_core::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
@@ -27,9 +28,9 @@ use ferry_core::scenario::{
     ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scenario,
     Scripted, When,
 };
-use ferry_core::session::RefusalCode;
 use ferry_core::session::SPEED_MAX;
-use ferry_core::trial::{EventKind, GOAL_RADIUS_M, Happening, Resumption};
+use ferry_core::session::VoidFact;
+use ferry_core::trial::{EventKind, GOAL_RADIUS_M, Happening, PhaseFact, Resumption, StopCode};
 use ferry_lab::evaluate::{Comparison, EvaluationQuery, PairedMean, PaperRow, Row, Setting, Variation};
 use ferry_lab::learn::{Ending, FusionName, RecipeName, Settings, Trail, TrainingQuery};
 use ferry_lab::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};

@@ -3,7 +3,8 @@
 use serde_json::Value;
 
 use super::{ANSWER_WITHIN, COMMAND_QUEUE};
-use ferry_core::session::{CommandError as SessionError, RefusalCode};
+use ferry_core::facts::RefusalCode;
+use ferry_core::session::CommandError as SessionError;
 use ferry_ur::twin::DriveError;
 
 /// Why a command was refused; the session is unchanged.

@@ -148,9 +148,9 @@ test('sends the epoch of its lease, and the server refuses an earlier one', asyn
     };
   });
   await lab.button('Run').click();
-  await expect(lab.notice('session').getByText(PASSED_ON)).toBeVisible();
+  await expect(lab.notice('transport').getByText(PASSED_ON)).toBeVisible();
   expect(lab.state.running, 'the server carried out a stale command').toBe(false);
-  await lab.notice('session').getByRole('button', { name: 'Dismiss' }).click();
+  await lab.notice('transport').getByRole('button', { name: 'Dismiss' }).click();
 });
 
 test('explains why a name in the address is invalid', async ({ page, server, watch }) => {

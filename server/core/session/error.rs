@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use super::RefusalCode;
 use crate::challenge::ChallengeError;
+use crate::facts::RefusalCode;
 use crate::map::MapError;
 use crate::scenario::ParameterError;
 use crate::trial::{CaseError, InputError, TrialError};

@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::PhaseFact;
+use crate::control::facts::RefusalFact;
 use crate::control::switching::Reason;
-use crate::facts::{PhaseFact, RefusalFact, Told};
+use crate::facts::Told;
 use crate::scenario::ControllerName;
 
 /// Kinds of event, for the timeline.

@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use crate::control::Refusal;
 use crate::control::limits::JointRefusal;
+use crate::facts::RefusalCode;
 use crate::scenario::{ControllerName, DisturbanceError, ParameterError};
-use crate::session::RefusalCode;
 
 /// Maximum number of inputs before one tick: a quarter of an hour of dragging while paused. All are logged.
 pub(super) const WAITING_MOST: usize = 50_000;

@@ -15,7 +15,7 @@ use super::hub::json;
 use crate::http::Server;
 use crate::http::routes::{challenges, controllers, evaluations, recoveries, trainings};
 use crate::protocol::{CatalogMessage, Policies, Refusal, ServerMessage, TrainingPoint, TrainingPointsMessage};
-use ferry_core::session::RefusalCode;
+use ferry_core::facts::RefusalCode;
 use ferry_lab::learn::{Point, Training};
 
 /// Shortest time between two messages about the same list.
