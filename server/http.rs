@@ -7,6 +7,7 @@ mod base;
 mod body;
 #[cfg(test)]
 mod fault_tests;
+mod lists;
 mod live;
 mod metrics;
 mod openapi;

@@ -231,7 +231,7 @@ def carried(page: Page, name: str, start_m: np.ndarray, goal_m: np.ndarray) -> d
     page.state(
         lambda state: (
             is_at(state["goal_m"], goal_m)
-            and not state["phase"]["code"] in OVER
+            and state["phase"]["code"] not in OVER
             and state["program"] is not None
             and state["program"]["name"] == name
             and state["program"]["is_connected"]
@@ -251,10 +251,8 @@ def delivered(address: str, name: str, trials: int) -> int:  # noqa: F811
             count += state["phase"]["code"] == "delivered"
             simulated_s += state["sim_time_s"]
             if state["phase"]["code"] != "delivered":
-                print(
-                    f"\nseed {seed}: {state['phase']['text']}, {(state['refusal'] or state['trouble'] or {}).get('text')}",
-                    end="",
-                )
+                why = state["refusal"] or state["trouble"] or {"text": None}
+                print(f"\nseed {seed}: {state['phase']['text']}, {why['text']}", end="")
     program = state["program"]
     took_s = time.monotonic() - began
     low, high = wilson(count, trials)

@@ -13,7 +13,7 @@ use tokio::sync::watch;
 use super::Connection;
 use super::hub::json;
 use crate::http::Server;
-use crate::http::routes::{challenges, controllers, evaluations, recoveries, trainings};
+use crate::http::lists;
 use crate::protocol::{CatalogMessage, Policies, Refusal, ServerMessage, TrainingPoint, TrainingPointsMessage};
 use ferry_core::facts::RefusalCode;
 use ferry_lab::learn::{Point, Training};
@@ -67,11 +67,11 @@ impl List {
         json(&ServerMessage::Catalog(match self {
             Self::Maps => CatalogMessage::Maps(server.maps.all.names()),
             Self::Policies => CatalogMessage::Policies(Policies::of(&server.policies).policies),
-            Self::Trainings => CatalogMessage::Trainings(trainings::listed(server)),
-            Self::Evaluations => CatalogMessage::Evaluations(evaluations::listed(server)),
-            Self::Recoveries => CatalogMessage::Recoveries(recoveries::listed(server)),
-            Self::Programs => CatalogMessage::Programs(controllers::listed(server)),
-            Self::Challenges => CatalogMessage::Challenges(challenges::listed(server)),
+            Self::Trainings => CatalogMessage::Trainings(lists::trainings(server)),
+            Self::Evaluations => CatalogMessage::Evaluations(lists::evaluations(server)),
+            Self::Recoveries => CatalogMessage::Recoveries(lists::recoveries(server)),
+            Self::Programs => CatalogMessage::Programs(lists::programs(server)),
+            Self::Challenges => CatalogMessage::Challenges(lists::challenges(server)),
         }))
     }
 }
@@ -80,7 +80,7 @@ impl List {
 pub async fn keep(server: Weak<Server>) {
     let Some(mut changes) = server.upgrade().map(|server| ALL.map(|list| list.changes(&server))) else { return };
     changes.iter_mut().for_each(watch::Receiver::mark_changed);
-    let mut date = challenges::today();
+    let mut date = lists::today();
     loop {
         let Some(now) = server.upgrade() else { return };
         let reading = tokio::task::spawn_blocking(move || {
@@ -107,9 +107,9 @@ pub async fn keep(server: Weak<Server>) {
             match tokio::time::timeout(DATE_EVERY, select_all(each)).await {
                 Ok((Ok(()), ..)) => break,
                 Ok((Err(_), ..)) => return,
-                Err(_) if date == challenges::today() => {}
+                Err(_) if date == lists::today() => {}
                 Err(_) => {
-                    date = challenges::today();
+                    date = lists::today();
                     changes[List::Challenges as usize].mark_changed();
                     break;
                 }

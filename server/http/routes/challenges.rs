@@ -7,20 +7,20 @@ use std::time::Duration;
 use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
-use jiff::{Timestamp, Zoned, civil::Date, tz::TimeZone};
 
 use super::sessions::find;
+use jiff::Timestamp;
+
 use crate::boards::{BoardError, Boards, Signature};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
+use crate::http::lists;
 use crate::http::path::{ChallengePath, Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::protocol::{
-    AttemptAnswer, AttemptQuery, AttemptReport, ChallengeReport, ChallengeSummary, Challenges, Ghosts, Period,
-};
+use crate::protocol::{AttemptAnswer, AttemptQuery, AttemptReport, ChallengeReport, Challenges, Ghosts};
 use ferry_camera::{Camera, Gpu};
-use ferry_core::challenge::{AttemptError, Challenge, ChallengeError, ChallengeName, Difficulty, Ghost};
+use ferry_core::challenge::{AttemptError, Challenge, ChallengeError, ChallengeName, Ghost};
 use ferry_core::image::CameraError;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Ended;
@@ -32,12 +32,10 @@ use ferry_lab::jobs::gentle_pool;
 const RUN_WAITS: Duration = Duration::from_secs(60);
 /// Challenges whose ghosts are kept in memory.
 const KEPT: usize = 32;
-/// Earlier challenges in the list.
-const EARLIER_MOST: usize = 50;
 
 /// Boards, and the newest ghosts, the newest one last.
 pub struct Contests {
-    boards: Boards,
+    pub boards: Boards,
     ghosts: Mutex<Vec<(ChallengeName, Arc<Vec<Ghost>>)>>,
 }
 
@@ -94,25 +92,6 @@ impl From<NoGhosts> for Problem {
     }
 }
 
-pub fn today() -> Date {
-    date(Timestamp::now())
-}
-
-fn date(now: Timestamp) -> Date {
-    Zoned::new(now, TimeZone::UTC).date()
-}
-
-/// Those of the day and of the week, in UTC.
-fn offered(now: Timestamp) -> Vec<(ChallengeName, Period)> {
-    let today = date(now);
-    let week = today.iso_week_date();
-    let seeds = [(today.to_string(), Period::Day), (format!("{:04}-w{:02}", week.year(), week.week()), Period::Week)];
-    let all = seeds.into_iter().flat_map(|(seed, period)| {
-        Difficulty::ALL.map(|difficulty| (ChallengeName { difficulty, seed: seed.clone() }, period))
-    });
-    all.collect()
-}
-
 fn named(name: &str) -> Result<ChallengeName, Problem> {
     name.parse().map_err(|error: ferry_core::challenge::NotAChallenge| {
         Problem::new(StatusCode::NOT_FOUND, "not_found", error.to_string()).field("name")
@@ -123,18 +102,7 @@ fn named(name: &str) -> Result<ChallengeName, Problem> {
 #[utoipa::path(get, path = "/api/challenges", tag = "challenges", operation_id = "challenges",
     responses((status = 200, body = Challenges), Unavailable))]
 pub async fn list(State(server): State<Arc<Server>>) -> Result<Json<Challenges>, Problem> {
-    Ok(Json(Challenges { challenges: server.work(|server| listed(server)).await? }))
-}
-
-/// Reads files.
-pub fn listed(server: &Server) -> Vec<ChallengeSummary> {
-    let boards = &server.contests.boards;
-    let offered = offered(Timestamp::now());
-    let mut earlier = boards.names();
-    earlier.retain(|name| offered.iter().all(|(other, _)| other != name));
-    let earlier = earlier.into_iter().rev().take(EARLIER_MOST).map(|name| (name, None));
-    let all = offered.into_iter().map(|(name, period)| (name, Some(period))).chain(earlier);
-    all.map(|(name, period)| ChallengeSummary::of(&name, period, &boards.of(&name))).collect()
+    Ok(Json(Challenges { challenges: server.work(|server| lists::challenges(server)).await? }))
 }
 
 /// A challenge with its board.
@@ -258,30 +226,5 @@ impl From<BoardError> for Problem {
             BoardError::Full => Self::new(StatusCode::TOO_MANY_REQUESTS, "too_many_boards", detail),
             BoardError::Io(_) => Self::new(StatusCode::INSUFFICIENT_STORAGE, "not_kept", detail),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn three_a_day_and_three_a_week_are_offered_also_at_the_turn_of_the_year() {
-        let names = |now: &str| {
-            let all = offered(now.parse().unwrap());
-            all.into_iter().map(|(name, _)| name.to_string()).collect::<Vec<_>>()
-        };
-        assert_eq!(
-            names("2026-11-26T23:59:59Z"),
-            [
-                "easy-2026-11-26",
-                "medium-2026-11-26",
-                "hard-2026-11-26",
-                "easy-2026-w48",
-                "medium-2026-w48",
-                "hard-2026-w48"
-            ]
-        );
-        assert_eq!(names("2027-01-01T00:00:00Z")[3], "easy-2026-w53");
     }
 }

@@ -10,22 +10,19 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::http::Server;
+use crate::http::lists;
 use crate::http::path::{Path, ProgramPath, Query};
 use crate::http::problem::Problem;
 use crate::http::programs::{LIMITS, serve};
 use crate::http::refusals::{Conflict, Malformed, NotUpgraded, OutOfRange, TooMany};
 use crate::http::socket::Upgrade;
-use crate::protocol::{PROGRAM_PROTOCOL_VERSION, ProgramStanding, Programs};
+use crate::protocol::{PROGRAM_PROTOCOL_VERSION, Programs};
 
 /// The programs that are or were connected.
 #[utoipa::path(get, path = "/api/controllers", tag = "controllers", operation_id = "controllers",
     responses((status = 200, body = Programs)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Programs> {
-    Json(Programs { programs: listed(&server) })
-}
-
-pub fn listed(server: &Server) -> Vec<ProgramStanding> {
-    server.programs.all().iter().map(|program| ProgramStanding::from(&**program)).collect()
+    Json(Programs { programs: lists::programs(&server) })
 }
 
 #[derive(Deserialize, IntoParams)]

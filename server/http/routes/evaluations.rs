@@ -9,6 +9,7 @@ use axum::response::{IntoResponse, Response};
 
 use crate::http::Server;
 use crate::http::body::{WholeBody, attachment, parse};
+use crate::http::lists;
 use crate::http::path::{EvaluationPath, Path, ReportPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
@@ -20,11 +21,7 @@ use ferry_lab::jobs::QueueError;
 #[utoipa::path(get, path = "/api/evaluations", tag = "evaluations", operation_id = "evaluations",
     responses((status = 200, body = Evaluations)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
-    Json(Evaluations { evaluations: listed(&server) })
-}
-
-pub fn listed(server: &Server) -> Vec<EvaluationSummary> {
-    server.evaluations.all().iter().map(|evaluation| EvaluationSummary::from(&**evaluation)).collect()
+    Json(Evaluations { evaluations: lists::evaluations(&server) })
 }
 
 /// Starts an evaluation or queues it.

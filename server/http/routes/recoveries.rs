@@ -10,6 +10,7 @@ use axum::response::{IntoResponse, Response};
 use super::sessions::find as find_session;
 use crate::http::Server;
 use crate::http::body::{WholeBody, attachment, parse};
+use crate::http::lists;
 use crate::http::path::{CellPath, Path, RecoveryFilePath, RecoveryPath, TryPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
@@ -24,11 +25,7 @@ use ferry_lab::recovery::{RecoveryJob, Report, Start, SubmitRecoveryError};
 #[utoipa::path(get, path = "/api/recoveries", tag = "recoveries", operation_id = "recoveries",
     responses((status = 200, body = Recoveries)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Recoveries> {
-    Json(Recoveries { recoveries: listed(&server) })
-}
-
-pub fn listed(server: &Server) -> Vec<RecoverySummary> {
-    server.recoveries.all().iter().map(|job| RecoverySummary::from(&**job)).collect()
+    Json(Recoveries { recoveries: lists::recoveries(&server) })
 }
 
 /// Starts a recovery map or queues it.

@@ -9,6 +9,7 @@ use axum::response::{IntoResponse, Response};
 
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
+use crate::http::lists;
 use crate::http::path::{FramePath, Path, TrainingPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
@@ -19,11 +20,7 @@ use ferry_lab::learn::{LibraryError, QueryError, SubmitTrainingError, Training, 
 #[utoipa::path(get, path = "/api/trainings", tag = "trainings", operation_id = "trainings",
     responses((status = 200, body = Trainings)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Trainings> {
-    Json(Trainings { trainings: listed(&server) })
-}
-
-pub fn listed(server: &Server) -> Vec<TrainingSummary> {
-    server.trainings.all().iter().map(|training| TrainingSummary::from(&**training)).collect()
+    Json(Trainings { trainings: lists::trainings(&server) })
 }
 
 /// Starts a training or queues it.

@@ -6,7 +6,7 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::goals::GoalSet;
-use super::settings::Settings;
+use super::settings::{FusionName, Settings};
 use ferry_core::policy::{Architecture, Fusion};
 use ferry_core::scenario::Parameters;
 use ferry_core::scenario::descriptor::Outside;
@@ -262,6 +262,26 @@ impl Recipe {
             return Err(RecipeError { field: "architecture.fusion", value, allowed });
         }
         Ok(())
+    }
+}
+
+impl From<&Recipe> for Settings {
+    fn from(recipe: &Recipe) -> Self {
+        Self {
+            updates: Some(u32::try_from(recipe.updates).unwrap_or(u32::MAX)),
+            learning_rate: Some(recipe.learning_rate),
+            discount: Some(recipe.discount),
+            exploration: Some(recipe.exploration),
+            noisy: Some(recipe.architecture.noisy),
+            progress_reward: Some(recipe.progress_reward),
+            step_penalty: Some(recipe.step_penalty),
+            n_step: Some(u32::try_from(recipe.n_step).unwrap_or(u32::MAX)),
+            fusion: match recipe.architecture.fusion {
+                Fusion::Early => Some(FusionName::Early),
+                Fusion::Late => Some(FusionName::Late),
+                Fusion::Survey => None,
+            },
+        }
     }
 }
 

@@ -5,9 +5,8 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use super::recipe::{Recipe, RecipeError};
 use ferry_core::policy::Fusion;
-use ferry_core::scenario::descriptor::{FormField, Kind, Numeric, PLAIN, number, whole};
+use ferry_core::scenario::descriptor::{FormField, Kind, Numeric, Outside, PLAIN, number, whole};
 
 /// How image, tool and goal come together in the network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
@@ -66,9 +65,9 @@ macro_rules! settings {
             },)*];
 
             /// # Errors
-            /// [`RecipeError`] names the first one that is out of range.
-            pub fn check(&self) -> Result<(), RecipeError> {
-                Ok(FormField::check(Self::ALL, &[$(self.$name.and_then(|value| value.number()),)*])?)
+            /// The first one that is out of range.
+            pub fn check(&self) -> Result<(), Outside> {
+                FormField::check(Self::ALL, &[$(self.$name.and_then(|value| value.number()),)*])
             }
         }
     };
@@ -93,24 +92,4 @@ settings! {
         "Steps of a return", "How many real rewards are added up before the network’s own estimate takes over.";
     fusion: FusionName,
         "Fusion", "Where the network joins image and goal: early is that of the paper, late learns faster.";
-}
-
-impl From<&Recipe> for Settings {
-    fn from(recipe: &Recipe) -> Self {
-        Self {
-            updates: Some(u32::try_from(recipe.updates).unwrap_or(u32::MAX)),
-            learning_rate: Some(recipe.learning_rate),
-            discount: Some(recipe.discount),
-            exploration: Some(recipe.exploration),
-            noisy: Some(recipe.architecture.noisy),
-            progress_reward: Some(recipe.progress_reward),
-            step_penalty: Some(recipe.step_penalty),
-            n_step: Some(u32::try_from(recipe.n_step).unwrap_or(u32::MAX)),
-            fusion: match recipe.architecture.fusion {
-                Fusion::Early => Some(FusionName::Early),
-                Fusion::Late => Some(FusionName::Late),
-                Fusion::Survey => None,
-            },
-        }
-    }
 }

@@ -94,7 +94,7 @@ impl TrainingQuery {
     /// # Errors
     /// [`QueryError::Recipe`], [`QueryError::Memory`].
     pub fn recipe(&self, start: Option<&Manifest>) -> Result<Recipe, QueryError> {
-        self.settings.check()?;
+        self.settings.check().map_err(RecipeError::from)?;
         let mut recipe = Recipe::named(self.recipe);
         let Settings {
             updates,
