@@ -156,9 +156,13 @@ def test_unusable_answers_hold_the_arm_and_say_why(address: str) -> None:
                 "target_m is [nan, 0.0], it must be finite",
                 "ZeroDivisionError: of zero",
             ]:
-                page.state(lambda state, text=text: text in (state["refusal"] or ""))
+                page.state(lambda state, text=text: text in (state["refusal"] or {"text": ""})["text"])
             assert page.state(lambda state: True)["running"]
-        page.state(lambda state: state["refusal"] == "the program: odd is not connected")
+        page.state(
+            lambda state: (
+                state["refusal"] is not None and state["refusal"]["text"] == "the program: odd is not connected"
+            )
+        )
 
 
 def test_refusals_are_raised(address: str) -> None:
