@@ -26,7 +26,7 @@ import {
 } from '../../net/protocol.gen';
 import { ScriptList } from './ScriptList';
 import { Amount, Choice, type Place, PlaceFields } from './disturbFields';
-import type { Picker } from '../../plan/picker';
+import type { Picker } from '../../plan/interaction';
 import type { Session, Trial } from '../../lab/slices';
 import './disturb.css';
 

@@ -1,7 +1,7 @@
 // The fields of a disturbance: numbers with units, choices, and places that can be picked in the plan view.
 
 import { For, Show, onCleanup, type JSX } from 'solid-js';
-import type { Picker } from '../../plan/picker';
+import type { Picker } from '../../plan/interaction';
 import type { Vec2 } from '../../lab/geometry';
 import { numberOf } from '../../ui/number';
 import { NumberInput } from '../../ui/NumberInput';
