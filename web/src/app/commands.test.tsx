@@ -12,9 +12,7 @@ const select = (name: string) => page.getByLabelText(name, { exact: true });
 const errt = page.getByRole('radio', { name: 'ERRT' });
 const rl = page.getByRole('radio', { name: 'RL' });
 const busy = (): string[] =>
-  [...document.querySelectorAll('[aria-busy=true]')].map(
-    (one) => one.id || (one.textContent ?? '') || one.getAttribute('value') || one.tagName,
-  );
+  [...document.querySelectorAll('[aria-busy=true]')].map(({ outerHTML }) => outerHTML);
 const notices = (): string[] =>
   [...document.querySelectorAll('.notice[data-tone=error]')].map(
     (one) => one.closest('.notices')?.getAttribute('data-place') ?? '',
