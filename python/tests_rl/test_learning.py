@@ -251,7 +251,10 @@ def delivered(address: str, name: str, trials: int) -> int:  # noqa: F811
             count += state["phase"]["code"] == "delivered"
             simulated_s += state["sim_time_s"]
             if state["phase"]["code"] != "delivered":
-                print(f"\nseed {seed}: {state['phase']['text']}, {(state['refusal'] or state['trouble'] or {}).get('text')}", end="")
+                print(
+                    f"\nseed {seed}: {state['phase']['text']}, {(state['refusal'] or state['trouble'] or {}).get('text')}",
+                    end="",
+                )
     program = state["program"]
     took_s = time.monotonic() - began
     low, high = wilson(count, trials)
