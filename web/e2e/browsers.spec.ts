@@ -7,6 +7,7 @@ import { LONG } from './fixtures';
 import { OUTPUT } from './support/growth';
 import { OTHER_BROWSERS, type OtherBrowser, type Place } from './support/otherBrowsers';
 import { Server } from './support/server';
+import { flat } from './support/table';
 
 /** The middle of the first element that fits, with exactly this text if one is given. */
 const middle = (browser: OtherBrowser, selector: string, text?: string) =>
@@ -37,10 +38,10 @@ const px = (browser: OtherBrowser, [x, y]: Place) =>
     return [left + Number(originX) + ${x} * pxPerM, top + Number(originY) - ${y} * pxPerM];
   })()`);
 
-const bead = async (browser: OtherBrowser) => {
-  const text = await browser.read<string>(`document.querySelector('.plan-canvas').dataset.bead`);
-  const [x = NaN, y = NaN] = text.split(',').map(Number);
-  return [x, y] as const;
+const bead = async (server: Server) => {
+  const answer = await fetch(`${server.url}/api/sessions/other/state`);
+  const { bead_m } = (await answer.json()) as { bead_m: readonly [number, number, number] };
+  return flat(bead_m);
 };
 
 const tick = (browser: OtherBrowser) =>
@@ -61,11 +62,11 @@ for (const [name, launch] of Object.entries(OTHER_BROWSERS)) {
         await expect.poll(() => tick(browser), 'a running trial').toBeGreaterThan(100);
         await click(browser, 'button.run', 'Pause');
 
-        const from = await bead(browser);
+        const from = await bead(server);
         const to: Place = [from[0] + 0.03, from[1]];
         await browser.drag([await px(browser, from), await px(browser, to)]);
         await expect
-          .poll(async () => Math.abs((await bead(browser))[0] - to[0]), 'a dragged bead')
+          .poll(async () => Math.abs((await bead(server))[0] - to[0]), 'a dragged bead')
           .toBeLessThan(0.01);
 
         await click(browser, 'label', '3-D');

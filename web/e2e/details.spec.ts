@@ -38,7 +38,7 @@ test('the story of an event does not cover the bead', async ({ lab }) => {
   await deliver(lab);
   await eventsOf(lab).last().click();
   const card = must(await lab.page.getByRole('dialog').boundingBox(), 'the card');
-  for (const point of [await lab.bead(), must(await lab.point('goal'), 'the goal')]) {
+  for (const point of [await lab.bead(), must(await lab.goal(), 'the goal')]) {
     const [x, y] = await lab.px(point);
     const inside = x > card.x && x < card.x + card.width && y > card.y && y < card.y + card.height;
     expect(inside, `the card covers (${x}, ${y})`).toBe(false);

@@ -58,7 +58,7 @@ test('asks a viewer before it loads a linked experiment', async ({ lab, openLab 
     seed: second.scene.seed,
     controller: second.state.controller,
     threshold_m: second.scene.parameters.threshold_m,
-    start: await second.point('bead'),
+    start: await second.bead(),
     link: await sharedLink(second),
   }).toEqual({ seed, controller: 'errt', threshold_m: 0.08, start, link });
   await expect(question).toHaveText('');

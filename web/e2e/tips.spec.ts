@@ -14,7 +14,7 @@ test('opens on a goal in the colon, with a tip', async ({ page, watch }) => {
     expect(lab.scene.map).toBe('colon');
     expect(lab.state.controller).toBe('rl');
     expect(lab.state.running).toBe(false);
-    expect(await lab.point('goal')).toBeDefined();
+    expect(await lab.goal()).toBeDefined();
     await expect(page.locator('.tip span')).toHaveText('Press Run, then drag the bead away.');
     expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
     expect(await violations(page)).toEqual([]);

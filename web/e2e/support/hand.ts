@@ -2,6 +2,7 @@
 
 import { type Page, expect } from '@playwright/test';
 import { Lab } from './lab';
+import { tellTick } from './shown';
 import { type Point, distance } from './table';
 import { must, until } from './wait';
 
@@ -43,7 +44,7 @@ const COMPANIONS = [
 /**
  * Runs in the page before the page's scripts. A pointer event belongs to the message `steer` that is sent while it is
  * handled. A state belongs to the message with its `steer_m`, and to the messages before that one. It is drawn in the
- * frame that writes the canvas's `data-tick`.
+ * frame that writes its tick.
  */
 function probe() {
   window.ferryHand = [];
@@ -86,7 +87,7 @@ function probe() {
     for (const one of drawing) one.drawn_ms ??= performance.now();
     drawing = [];
   };
-  new MutationObserver(() => {
+  window.ferryShown(() => {
     const inputs = window.ferryHand.filter(
       ({ received_ms, shown_ms }) => received_ms !== undefined && shown_ms === undefined,
     );
@@ -96,11 +97,14 @@ function probe() {
     request((now) => {
       for (const one of inputs) one.shown_ms ??= now;
     });
-  }).observe(document, { subtree: true, attributeFilter: ['data-tick'] });
+  });
 }
 
 /** Must be called before the page is opened. */
-export const attachHand = (page: Page) => page.addInitScript(probe);
+export async function attachHand(page: Page) {
+  await page.addInitScript(tellTick);
+  await page.addInitScript(probe);
+}
 
 type Open = () => Promise<{ name: string; lab: Lab }>;
 

@@ -2,7 +2,8 @@
 
 import { type Locator, type Page, expect } from '@playwright/test';
 import { Stepper, keepSocket } from './stepper';
-import { type Point, type PointLike, distance, freePoints, wallPoint } from './table';
+import { countGpu } from './shown';
+import { type Point, type PointLike, distance, flat, freePoints, wallPoint } from './table';
 import { must, until } from './wait';
 
 const GOAL_RADIUS_M = 0.02;
@@ -31,6 +32,7 @@ export class Lab extends Stepper {
   static async watch(page: Page, url: string) {
     const lab = new Lab(page);
     await page.addInitScript(keepSocket);
+    await page.addInitScript(countGpu);
     await page.goto(url);
     return lab;
   }
@@ -85,16 +87,16 @@ export class Lab extends Stepper {
     return this.page.locator(`[data-place=${place}] .notice`);
   }
 
-  /** Where the plan view draws the bead or the goal, in metres. */
-  async point(name: 'bead' | 'goal'): Promise<Point | undefined> {
+  /** Where the goal of the shown state is, in metres. */
+  async goal(): Promise<Point | undefined> {
     await this.drawn();
-    const text = await this.canvas.getAttribute(`data-${name}`);
-    const [x, y] = text?.split(',').map(Number) ?? [];
-    return x === undefined || y === undefined ? undefined : [x, y];
+    return this.state.goal_m ? flat(this.state.goal_m) : undefined;
   }
 
-  async bead() {
-    return must(await this.point('bead'), 'the bead');
+  /** Where the bead of the shown state is. */
+  async bead(): Promise<Point> {
+    await this.drawn();
+    return flat(this.state.bead_m);
   }
 
   /** Scrolls to an element and returns its box on the page, once two frames show the same box. */
@@ -212,7 +214,7 @@ export class Lab extends Stepper {
     await expect(this.page.getByTestId('deliveries')).toHaveText(String(count), {
       timeout: DELIVERY_MS,
     });
-    const distance_m = distance(await this.bead(), must(await this.point('goal'), 'the goal'));
+    const distance_m = distance(await this.bead(), must(await this.goal(), 'the goal'));
     expect(distance_m, 'distance from bead to goal in metres').toBeLessThanOrEqual(GOAL_RADIUS_M);
   }
 

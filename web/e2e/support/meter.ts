@@ -2,6 +2,7 @@
 
 import { type CDPSession, type Page, expect } from '@playwright/test';
 import type { Lab } from './lab';
+import { tellTick } from './shown';
 
 interface Counted {
   frames: number;
@@ -82,7 +83,7 @@ export function overruns(figures: Figures, leniency = 1) {
  * Runs in the page before the page's scripts. Records when a state arrives, when a step is
  * requested, and when a tick is on the screen.
  *
- * The canvas writes the tick that it shows to `data-tick` in the frame that draws it. The next
+ * The page writes the tick in the frame that draws its state. The next
  * frame begins only after the browser has taken that frame, so its start counts as the time when
  * the tick is on the screen. Each figure is at most one frame too large, and never too small.
  */
@@ -117,7 +118,7 @@ function probe() {
       work(now);
     });
 
-  const record = (tick: string | undefined) => {
+  window.ferryShown((tick) => {
     const received_ms = received.get(tick);
     received.clear();
     const stepped_ms = requested_ms;
@@ -126,10 +127,7 @@ function probe() {
       if (received_ms !== undefined) meter.shown.push(now - received_ms);
       if (stepped_ms !== undefined) meter.steps.push(now - stepped_ms);
     });
-  };
-  new MutationObserver((changes) => {
-    record((changes.at(-1)?.target as HTMLElement | undefined)?.dataset.tick);
-  }).observe(document, { subtree: true, attributeFilter: ['data-tick'] });
+  });
 }
 
 export class Meter {
@@ -142,6 +140,7 @@ export class Meter {
 
   /** Must be called before the page is opened. */
   static async attach(page: Page) {
+    await page.addInitScript(tellTick);
     await page.addInitScript(probe);
     const cdp = await page.context().newCDPSession(page);
     await cdp.send('Performance.enable');
@@ -223,7 +222,7 @@ export async function stepThrough(lab: Lab, count: number) {
     const { tick } = lab.state;
     await lab.button('Step').click();
     await expect
-      .poll(() => lab.canvas.getAttribute('data-tick'), { intervals: [25] })
-      .toBe(`${tick + 1}`);
+      .poll(() => lab.page.getByTestId('tick').textContent(), { intervals: [25] })
+      .toBe(`tick ${tick + 1}`);
   }
 }

@@ -44,5 +44,6 @@ export const open = (name: string) => async (lab: Lab) => {
 /** Opens the 3-D view and waits until it draws. */
 export async function openSceneView(lab: Lab) {
   await lab.radio('3-D').check();
-  await expect(lab.label('Scene')).toHaveAttribute('data-bead-px', /\d/, { timeout: 30_000 });
+  await expect(lab.label('Scene')).toHaveAttribute('data-px-from-table', /\d/, { timeout: 30_000 });
+  await lab.drawn();
 }

@@ -6,20 +6,15 @@ import { must, until } from './wait';
 
 export const sceneOf = (lab: Lab) => lab.label('Scene');
 
-async function numbers(lab: Lab, name: string) {
-  const text = must(await sceneOf(lab).getAttribute(`data-${name}`), `data-${name}`);
-  return text.split(',').map(Number);
-}
-
 const boxOf = async (lab: Lab) => must(await sceneOf(lab).boundingBox(), 'the scene');
 
 /** Waits until the 3-D view has drawn the last messages: until it draws no more frames. */
 export async function settled(lab: Lab) {
-  let before: string | null = null;
+  let before: number | undefined;
   let times = 0;
   await until('a picture that does not change', async () => {
     await lab.drawn();
-    const now = await sceneOf(lab).getAttribute('data-frames');
+    const now = await lab.page.evaluate(() => window.ferryGpu.frames);
     times = now === before ? times + 1 : 0;
     before = now;
     return times === 3;
@@ -27,12 +22,15 @@ export async function settled(lab: Lab) {
 }
 
 /** The homography from the table in metres to the picture in pixels: nine numbers, row by row. */
-export const projection = (lab: Lab) => numbers(lab, 'px-from-table');
+export async function projection(lab: Lab) {
+  const text = await sceneOf(lab).getAttribute('data-px-from-table');
+  return must(text, 'data-px-from-table').split(',').map(Number);
+}
 
-/** Numbers of geometries and textures on the graphics card. */
+/** Numbers of buffers and textures on the graphics card. */
 export async function gpuObjects(lab: Lab) {
   await settled(lab);
-  return [...(await numbers(lab, 'geometries')), ...(await numbers(lab, 'textures'))];
+  return lab.page.evaluate(() => [window.ferryGpu.buffers, window.ferryGpu.textures]);
 }
 
 /** Position on the page, in CSS pixels, of a point of the table. */
@@ -43,11 +41,8 @@ export async function px(lab: Lab, [x, y]: Point): Promise<[number, number]> {
   return [box.x + row(0) / row(2), box.y + row(1) / row(2)];
 }
 
-export async function beadPx(lab: Lab): Promise<[number, number]> {
-  const box = await boxOf(lab);
-  const [x = NaN, y = NaN] = await numbers(lab, 'bead-px');
-  return [box.x + x, box.y + y];
-}
+/** Position on the page of the bead's lowest point. */
+export const beadPx = async (lab: Lab) => px(lab, await lab.bead());
 
 /** A free point of the table that lies well inside the picture. */
 export async function freeInPicture(lab: Lab, min_m: number, max_m: number) {

@@ -6,9 +6,7 @@ import { TRAIN_SHORTCUTS } from '../features/train/keys';
 import { TIME_SHORTCUTS } from '../features/playback/shortcuts';
 import { isAtStake } from '../lab/contest';
 import type { FeatureShortcuts } from '../lab/shortcuts';
-import { WORKSPACE_SHORTCUTS } from '../plan/keyboard';
-import { STEER_SHORTCUTS } from '../plan/steerInput';
-import { ZOOM_SHORTCUTS } from '../plan/zooming';
+import { WORKSPACE_SHORTCUTS } from '../plan/input';
 import type { Shortcut } from '../ui/shortcuts';
 import type { Lab } from '../lab/slices';
 
@@ -33,8 +31,6 @@ export function pageShortcuts(
     },
     { group: 'Page', keys: ['?'], does: 'open this help', run: help },
     ...WORKSPACE_SHORTCUTS,
-    ...STEER_SHORTCUTS,
-    ...ZOOM_SHORTCUTS,
     ...DRAW_SHORTCUTS,
     ...TRAIN_SHORTCUTS,
   ];

@@ -16,20 +16,20 @@ import { fitView, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
 import { fogPath } from './fog';
 import type { LiveLayer } from './layer';
-import { paint, type Picture } from './paint';
+import { type Base, createPainter, type Picture } from './paint';
 import type { Interaction } from './interaction';
 import { type Size, ViewCanvas } from './ViewCanvas';
 import type { ViewPicture } from './viewPicture';
 import { type Frame, WHOLE, type Zoom, zoomedView } from './zoom';
-import { attachZoom } from './zooming';
+import { yieldToPage, zooming } from './zooming';
 import './plan.css';
-import type { ByHand, Layers, Pictures, Trial, Walls } from '../lab/slices';
+import type { ByHand, Layers, Pictures, Session, Trial, Walls } from '../lab/slices';
 
 /** Space for the numbers of the axes, in pixels. */
 const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
 
 export interface SurfaceProps {
-  readonly lab: Trial & Layers & Pictures & ByHand & Walls;
+  readonly lab: Session & Trial & Layers & Pictures & ByHand & Walls;
   readonly interaction: Interaction;
   readonly layers: readonly LiveLayer[];
   readonly palette: Accessor<Palette>;
@@ -42,7 +42,7 @@ export interface SurfaceProps {
 
 export function PlanView(props: SurfaceProps): JSX.Element {
   const { lab, interaction, layers, palette } = props;
-  const { hand, reachPx, focused, cursor } = interaction;
+  const { act, reachPx, focused, cursor } = interaction;
   const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
 
@@ -51,7 +51,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   const frame = createMemo<Frame | undefined>(() => {
     const workspace = lab.scene()?.workspace;
     const { width, height } = size();
-    if (!workspace || width === 0) return undefined;
+    if (!workspace || width * height === 0) return undefined;
     return { width, height, workspace, fit: fitView(workspace, width, height, INSETS) };
   });
   const view = createMemo<View | undefined>(() => {
@@ -64,7 +64,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     const now = view();
     interaction.setView(now && tableViewOf(now));
   });
-  const baseMap = createBaseMap(lab, layers, palette, view);
+  const baseMap = createBaseMap(lab, layers, palette, view, lab.movedWalls);
 
   const moving = createMemo(() =>
     layers.flatMap((layer) => {
@@ -78,23 +78,26 @@ export function PlanView(props: SurfaceProps): JSX.Element {
       ? fogPath(lab.obstacleMap(), workspace, now)
       : undefined;
   });
-  const picture = createMemo<Picture | undefined>(() => {
+  const base = createMemo<Base | undefined>(() => {
     const mapNow = baseMap();
+    return mapNow && { map: mapNow, fog: fog() };
+  });
+  const picture = createMemo<Picture | undefined>(() => {
+    const baseNow = base();
     return (
-      mapNow && {
-        map: mapNow,
-        walls: lab.movedWalls(),
+      baseNow && {
+        base: baseNow,
         moving: moving(),
         state: lab.state(),
         history: lab.history,
-        drag: hand.drag(),
+        act: act(),
         grabRadiusPx: reachPx(),
         cursor: focused() && !lab.steering.isActive() ? cursor() : undefined,
         steer_m: lab.steering.target() ?? lab.state()?.steer_m ?? undefined,
-        fog: fog(),
       }
     );
   });
+  const paint = createPainter();
   createEffect(() => {
     const [now, onto] = [picture(), canvas()];
     if (now && onto) paint(onto, size(), now);
@@ -104,7 +107,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     if (!now) return undefined;
     if (ratio === window.devicePixelRatio) return own;
     const onto = document.createElement('canvas');
-    paint(onto, untrack(size), now, ratio);
+    createPainter()(onto, untrack(size), now, ratio);
     return onto;
   };
   createEffect(() => {
@@ -130,9 +133,10 @@ export function PlanView(props: SurfaceProps): JSX.Element {
         label="Workspace"
         class="plan-canvas"
         helpId={props.helpId}
+        surface={zooming(canvas, frame, zoom, setZoom)}
         onCanvas={(onto) => {
           setCanvas(onto);
-          attachZoom(onto, hand, { frame, zoom, setZoom });
+          yieldToPage(onto);
         }}
         onSize={setSize}
       />

@@ -1,13 +1,9 @@
 // The canvas of a view, with mouse, touch and keyboard input.
 
-import { createEffect, onCleanup, onMount, type JSX } from 'solid-js';
-import { attachKeyboard } from './keyboard';
-import { attachPointer } from './pointer';
-import type { Interaction } from './interaction';
-import type { Vec2 } from '../lab/geometry';
-import { isAtStake } from '../lab/contest';
-import { attachSteering } from './steerInput';
-import type { ByHand, Trial } from '../lab/slices';
+import { onCleanup, onMount, type JSX } from 'solid-js';
+import { attachInput } from './input';
+import type { Interaction, Surface } from './interaction';
+import type { ByHand, Session, Trial } from '../lab/slices';
 import './ViewCanvas.css';
 
 export interface Size {
@@ -16,16 +12,16 @@ export interface Size {
 }
 
 export function ViewCanvas(props: {
-  lab: Trial & Pick<ByHand, 'steering'>;
+  lab: Pick<Session, 'canOperate'> & Trial & Pick<ByHand, 'steering'>;
   interaction: Interaction;
+  /** How the view moves; it does not if this is not set. */
+  surface?: Partial<Surface>;
   label: string;
   class: string;
   helpId: string;
-  /** Called once when the canvas is on the page. Its listeners run after those of the hand. */
+  /** Called once when the canvas is on the page. */
   onCanvas: (canvas: HTMLCanvasElement) => void;
   onSize: (size: Size) => void;
-  /** Direction of an arrow key on the table; by default the direction on the screen. */
-  turned?: (arrow: Vec2) => Vec2;
 }): JSX.Element {
   const { lab, interaction } = props;
   let canvas!: HTMLCanvasElement;
@@ -35,61 +31,25 @@ export function ViewCanvas(props: {
       props.onSize({ width: canvas.clientWidth, height: canvas.clientHeight });
     });
     observer.observe(canvas);
-    const steered = new AbortController();
-    attachSteering(
-      canvas,
-      lab.steering,
-      {
-        view: interaction.view,
-        isPicking: interaction.picker.isPicking,
-        isAtStake: () => isAtStake(lab),
-        onPointing: (px) => interaction.setPointing({ px, reachPx: 0 }),
-        turned: (arrow) => props.turned?.(arrow) ?? arrow,
-      },
-      steered.signal,
-    );
-    const detach = attachPointer(
-      canvas,
-      lab,
-      interaction.hand,
-      interaction.view,
-      interaction.setPointing,
-      interaction.grabPx,
-    );
-    const cursor = {
-      at: interaction.cursor,
-      put: interaction.setCursor,
-      turned: (arrow: Vec2) => props.turned?.(arrow) ?? arrow,
+    const open = new AbortController();
+    const surface: Surface = {
+      motion: () => undefined,
+      key: () => false,
+      turned: (arrow) => arrow,
+      ...props.surface,
     };
-    attachKeyboard(
-      canvas,
-      lab,
-      interaction.hand,
-      cursor,
-      interaction.place,
-      interaction.picker.cancel,
-    );
+    interaction.enter(surface);
+    attachInput(canvas, lab, interaction, surface, open.signal);
     onCleanup(() => {
       observer.disconnect();
-      detach();
-      steered.abort();
+      open.abort();
       interaction.leave();
     });
     props.onCanvas(canvas);
   });
 
-  // For tests and other tools that read the page.
-  createEffect(() => {
-    const state = lab.state();
-    if (!state) return;
-    canvas.dataset.tick = String(state.tick);
-    canvas.dataset.bead = state.bead_m.slice(0, 2).join(',');
-    canvas.dataset.tool = state.tool_m.slice(0, 2).join(',');
-    canvas.dataset.goal = state.goal_m?.slice(0, 2).join(',') ?? '';
-  });
-
   const cursorName = (): string => {
-    if (interaction.hand.drag().kind === 'held') return 'holding';
+    if (interaction.act().kind === 'held') return 'holding';
     if (lab.steering.isActive()) return 'steering';
     return interaction.reachPx() === undefined ? 'free' : 'near-bead';
   };
@@ -103,12 +63,6 @@ export function ViewCanvas(props: {
       aria-label={props.label}
       aria-describedby={props.helpId}
       data-cursor={cursorName()}
-      onFocus={() => {
-        interaction.setFocused(true);
-      }}
-      onBlur={() => {
-        interaction.setFocused(false);
-      }}
     />
   );
 }

@@ -9,9 +9,16 @@ import { pxFromWorld, type View } from './transform';
 import type { MovedWalls } from '../lab/movedWalls';
 import type { Trial } from '../lab/slices';
 
-export interface BaseMap extends BasePicture {
+/** Floor and walls, with the layers between them. */
+export interface Ground extends BasePicture {
   readonly walls: Path2D;
+  /** The walls where they are now, if they move. */
+  readonly moved: MovedWalls | undefined;
   readonly belowWalls: readonly Draw<BasePicture>[];
+}
+
+export interface BaseMap {
+  readonly ground: Ground;
   readonly aboveWalls: readonly Draw<BasePicture>[];
 }
 
@@ -42,6 +49,7 @@ export function createBaseMap(
   layers: readonly LiveLayer[],
   palette: Accessor<Palette>,
   view: Accessor<View | undefined>,
+  moved?: Accessor<MovedWalls | undefined>,
 ): Accessor<BaseMap | undefined> {
   const walls = createMemo(() => {
     const now = view();
@@ -61,27 +69,27 @@ export function createBaseMap(
       });
   };
   const [belowWalls, aboveWalls] = [part('belowWalls'), part('aboveWalls')];
-  return createMemo(() => {
+  const ground = createMemo<Ground | undefined>(() => {
     const [scene, now, wallsNow] = [lab.scene(), view(), walls()];
     if (!scene || !now || !wallsNow) return undefined;
-    return {
-      view: now,
-      palette: palette(),
-      scene,
-      walls: wallsNow,
-      belowWalls: belowWalls(),
-      aboveWalls: aboveWalls(),
-    };
+    const parts = { moved: moved?.(), belowWalls: belowWalls() };
+    return { view: now, palette: palette(), scene, walls: wallsNow, ...parts };
+  });
+  return createMemo(() => {
+    const now = ground();
+    return now && { ground: now, aboveWalls: aboveWalls() };
   });
 }
 
-/** With the walls where they are now, if they move. */
-export function paintBaseMap(ctx: Ctx, map: BaseMap, moved?: MovedWalls): void {
-  const { view, palette, scene } = map;
+export function paintGround(ctx: Ctx, ground: Ground): void {
+  const { view, palette, scene, walls, moved } = ground;
   drawFloor(ctx, scene.workspace, view, palette);
-  for (const draw of map.belowWalls) draw(ctx, map);
+  for (const draw of ground.belowWalls) draw(ctx, ground);
   drawGrid(ctx, scene.workspace, view, palette);
   if (moved) drawMovedWalls(ctx, scene.workspace, moved, view, palette);
-  else drawOutlines(ctx, scene.workspace, map.walls, view, palette);
-  for (const draw of map.aboveWalls) draw(ctx, map);
+  else drawOutlines(ctx, scene.workspace, walls, view, palette);
+}
+
+export function paintAbove(ctx: Ctx, { ground, aboveWalls }: BaseMap): void {
+  for (const draw of aboveWalls) draw(ctx, ground);
 }

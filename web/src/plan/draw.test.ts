@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { fitView, pxFromWorld } from './transform';
 import { gridStepM } from './drawMap';
 import { beadRadiusPx } from './drawMoving';
-import { GRAB_MOUSE_PX } from './pointer';
+import { GRAB_PX } from './input';
 
 /** The planar stage's table on the canvas of a small screen, with axes. */
 const TABLE = { x_min_m: -1, x_max_m: 1, y_min_m: -0.5, y_max_m: 0.5 };
@@ -31,6 +31,6 @@ describe('a table of two metres by one', () => {
   it('shows the bead enlarged, and a capture ring wider than the grab distance', () => {
     expect(BEAD_RADIUS_M * view.pxPerM).toBeLessThan(1);
     expect(beadRadiusPx(view, BEAD_RADIUS_M)).toBeGreaterThanOrEqual(4);
-    expect(CAPTURE_M * view.pxPerM).toBeGreaterThan(1.5 * GRAB_MOUSE_PX);
+    expect(CAPTURE_M * view.pxPerM).toBeGreaterThan(1.5 * GRAB_PX.mouse);
   });
 });

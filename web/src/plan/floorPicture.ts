@@ -5,7 +5,7 @@ import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
 import { fitView, type Insets, type View } from './transform';
 import { drawGrid } from './drawMap';
-import { type BaseMap, paintBaseMap } from './baseMap';
+import { type BaseMap, paintAbove, paintGround } from './baseMap';
 
 /** The longer side of the workspace, in pixels of the base map. */
 const LONGER_PX = 460;
@@ -60,7 +60,8 @@ export function repaintFloor({ canvas, ratio }: FloorPicture, map: BaseMap): voi
   const ctx = canvas.getContext('2d', { alpha: false });
   if (!ctx) return;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  paintBaseMap(ctx, map);
+  paintGround(ctx, map.ground);
+  paintAbove(ctx, map);
 }
 
 export function repaintNumbers(picture: FloorPicture, palette: Palette): void {

@@ -1,20 +1,69 @@
-// The interaction with the workspace in both views: the hand, the pointer, the keyboard's cursor.
+// The interaction with the workspace in all views: runs the gestures, and sends what they do as messages.
 
-import { createMemo, createSignal, type Accessor, type Setter } from 'solid-js';
-import { createHand, type Hand } from './hand';
-import { createPicker, type Picker } from './picker';
-import { type Pointing, reachesBead } from './pointer';
-import { releaseWithLab } from './release';
-import type { TableView, Vec2 } from '../lab/geometry';
-import type { Notices, Session, Trial } from '../lab/slices';
+import { createEffect, createMemo, createSignal, on, untrack } from 'solid-js';
+import type { Accessor, Setter } from 'solid-js';
+import { clampToRect, distance, type TableView, type Vec2 } from '../lab/geometry';
+import type { ByHand, Notices, Session, Trial } from '../lab/slices';
+import { Limiter } from '../net/limiter';
+import { Repeater } from '../net/repeater';
+import { type Act, type Effect, type GestureEvent, type Mode, REST, step } from './gesture';
+import { causeOf, type Watched } from './release';
+
+const MAX_DRAGS_PER_S = 60;
+/** A hand that does not move repeats its message: after five seconds without one the server releases the bead. */
+const STILL_THERE_MS = 500;
+
+export interface Pointing {
+  /** Pointer in CSS pixels of the canvas. */
+  readonly px: Vec2;
+  /** Largest distance from the bead at which this pointer grabs it. */
+  readonly reachPx: number;
+}
+
+/** How pressed pointers and the wheel move a view. Places are in pixels. */
+export interface Motion {
+  /** The middle and the right button move it, too. */
+  readonly allButtons?: true;
+  move(effect: Effect & { type: 'move' }): void;
+  pinch(effect: Effect & { type: 'pinch' }): void;
+  /** Returns false if the wheel may scroll or zoom the page. */
+  wheel(event: WheelEvent, delta_px: number, at: Vec2): boolean;
+}
+
+/** An open view. */
+export interface Surface {
+  /** Undefined while nothing may move the view. */
+  readonly motion: () => Motion | undefined;
+  /** Handles a key that moves the view. Returns false for other keys. */
+  readonly key: (key: string) => boolean;
+  /** Direction on the table of an arrow on the screen. */
+  readonly turned: (arrow: Vec2) => Vec2;
+}
+
+/** Picks a place for a form: the next click on the workspace, or Enter at its cursor. */
+export interface Picker {
+  readonly isPicking: Accessor<boolean>;
+  /** Passes the next chosen place to `take`. */
+  start(take: (at: Vec2) => void): void;
+  /** Whether `take` waits for the next place. */
+  isFor(take: (at: Vec2) => void): boolean;
+  cancel(): void;
+}
 
 export interface Interaction {
   /** The mapping of the open view; undefined until its size is known. */
   readonly view: Accessor<TableView | undefined>;
   readonly setView: Setter<TableView | undefined>;
-  readonly hand: Hand;
+  readonly mode: Accessor<Mode>;
+  /** What the pressed pointer or the keyboard does. */
+  readonly act: Accessor<Act>;
+  readonly step: (event: GestureEvent) => void;
   readonly picker: Picker;
+  /** Whether this browser may act; shows a notice if not. */
+  mayAct(): boolean;
   readonly setPointing: Setter<Pointing | undefined>;
+  /** Whether a press would grab the bead. The bead may move while the pointer does not. */
+  isAtBead(pointing: Pointing): boolean;
   /** Distance from the bead within which a press takes it; undefined for that of the pointer's kind. */
   readonly grabPx: number | undefined;
   /** Radius of the ring around the bead if a press at the pointer would grab it. */
@@ -25,53 +74,144 @@ export interface Interaction {
   readonly setFocused: Setter<boolean>;
   /** The point of the table under the pointer, otherwise under the keyboard's cursor. */
   readonly at: Accessor<Vec2 | undefined>;
-  /** Gives the place to the picker if it waits for one, otherwise sets the goal. */
-  readonly place: (at: Vec2) => void;
   readonly setGoal: (at: Vec2) => void;
-  /** Called when a view closes. */
+  /** Called when a view opens and closes. */
+  enter(surface: Surface): void;
   leave(): void;
 }
 
-export function createInteraction(lab: Session & Trial & Notices, grabPx?: number): Interaction {
+export function createInteraction(
+  lab: Session & Trial & Notices & Pick<ByHand, 'steering'>,
+  grabPx?: number,
+): Interaction {
+  const [mode, setMode] = createSignal(REST);
+  const act = createMemo(() => mode().act);
   const [view, setView] = createSignal<TableView>();
   const [pointing, setPointing] = createSignal<Pointing>();
   const [cursor, setCursor] = createSignal<Vec2>();
   const [focused, setFocused] = createSignal(false);
-  const picker = createPicker();
-  const isOnTable = ([x_m, y_m]: Vec2): boolean => {
-    const workspace = lab.scene()?.workspace;
-    if (!workspace) return false;
-    const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
-    return x_m >= x_min_m && x_m <= x_max_m && y_m >= y_min_m && y_m <= y_max_m;
+  let surface: Surface | undefined;
+
+  const holds = new Repeater<{ at: Vec2; lift: boolean }>(STILL_THERE_MS, ({ at, lift }) => {
+    lab.stream({ type: 'drag', x_m: at[0], y_m: at[1], lift });
+  });
+  const drags = new Limiter<{ at: Vec2; lift: boolean }>(1000 / MAX_DRAGS_PER_S, (wish) => {
+    holds.say(wish);
+  });
+  const mayAct = (): boolean => {
+    if (lab.canOperate()) return true;
+    if (lab.connection().kind === 'live') {
+      lab.notify('workspace', 'You are watching. Take control to set goals or move the bead.');
+    }
+    return false;
   };
   const setGoal = (at: Vec2): void => {
+    const workspace = lab.scene()?.workspace;
     // Beside the table, a click means nothing.
-    if (isOnTable(at) && hand.mayAct())
-      void lab.send('workspace', { type: 'set_goal', x_m: at[0], y_m: at[1] });
+    if (!workspace || distance(clampToRect(workspace, at), at) > 0) return;
+    if (mayAct()) void lab.send('workspace', { type: 'set_goal', x_m: at[0], y_m: at[1] });
   };
-  const place = (at: Vec2): void => {
-    if (!picker.offer(at)) setGoal(at);
+  const perform = (effect: Effect): void => {
+    switch (effect.type) {
+      case 'steer':
+        lab.steering.point(effect.at);
+        break;
+      case 'lean':
+        lab.steering.lean('keys', surface?.turned(effect.direction) ?? effect.direction);
+        break;
+      case 'place':
+        (effect.take ?? setGoal)(effect.at);
+        break;
+      case 'refuse':
+        mayAct();
+        break;
+      case 'drag': {
+        const scene = lab.scene();
+        if (scene) drags.offer({ at: clampToRect(scene.workspace, effect.at), lift: effect.lift });
+        break;
+      }
+      case 'release':
+        drags.flush();
+        holds.stop();
+        lab.stream({ type: 'release' });
+        break;
+      case 'move':
+        surface?.motion()?.move(effect);
+        break;
+      case 'pinch':
+        surface?.motion()?.pinch(effect);
+        break;
+    }
   };
-  const hand = createHand(lab, place);
+  const run = (event: GestureEvent): void => {
+    untrack(() => {
+      const next = step(mode(), event);
+      setMode(next.mode);
+      next.effects.forEach(perform);
+    });
+  };
+
+  const isAtBead = ({ px, reachPx }: Pointing): boolean => {
+    const bead_m = lab.state()?.bead_m;
+    const bead = bead_m && view()?.toPx([bead_m[0], bead_m[1]], bead_m[2]);
+    return bead !== undefined && distance(px, bead) <= reachPx;
+  };
   const reachPx = createMemo(() => {
     const here = pointing();
-    const canTake = lab.canOperate() && hand.drag().kind !== 'held';
-    return here && canTake && reachesBead(view(), lab.state()?.bead_m, here)
-      ? here.reachPx
-      : undefined;
+    const canTake = lab.canOperate() && act().kind !== 'held';
+    return here && canTake && isAtBead(here) ? here.reachPx : undefined;
   });
+  const isPicking = createMemo(() => mode().take !== undefined);
 
-  releaseWithLab(lab, hand.release);
+  createEffect<Watched | undefined>((before) => {
+    const now: Watched = {
+      canOperate: lab.canOperate(),
+      silences: lab.silences(),
+      trial: lab.scene()?.trial,
+      tick: lab.state()?.tick ?? 0,
+    };
+    const cause = before && causeOf(before, now);
+    if (cause) run({ type: 'end', cause });
+    return now;
+  }, undefined);
+  createEffect(() => {
+    if (!lab.steering.isActive()) run({ type: 'end', cause: 'steering over' });
+  });
+  // When the view changes, the place under a still pointer changes.
+  createEffect(
+    on(view, (now) => {
+      const { act, fingers } = mode();
+      const pointer =
+        act.kind === 'steering' ? act.pointer : act.kind === 'held' ? act.by : undefined;
+      const finger = fingers.find((one) => one.pointer === pointer);
+      if (!now || !finger) return;
+      const { px } = finger;
+      const lift = act.kind === 'held' && act.lift;
+      run({ type: 'move', pointer: finger.pointer, px, at: now.toWorld(px), lift });
+    }),
+  );
 
   return {
     view,
     setView,
-    hand,
-    picker,
+    mode,
+    act,
+    step: run,
+    picker: {
+      isPicking,
+      start: (take) => {
+        run({ type: 'pick', take });
+      },
+      isFor: (take) => mode().take === take,
+      cancel: () => {
+        run({ type: 'pick' });
+      },
+    },
+    mayAct,
     setPointing,
+    isAtBead,
     grabPx,
     reachPx,
-    place,
     setGoal,
     cursor,
     setCursor,
@@ -82,9 +222,12 @@ export function createInteraction(lab: Session & Trial & Notices, grabPx?: numbe
       if (px) return view()?.toWorld(px);
       return focused() ? cursor() : undefined;
     },
+    enter: (opened) => {
+      surface = opened;
+    },
     leave: () => {
-      hand.release('view closed');
-      picker.cancel();
+      run({ type: 'end', cause: 'view closed' });
+      surface = undefined;
       setPointing(undefined);
       setFocused(false);
       setView(undefined);

@@ -16,6 +16,7 @@ import type { ViewpointName } from './viewpoints';
 import type { SceneView } from './SceneView';
 import type { InScene, LoadedLayer } from './sceneLayer';
 import { createBaseMap } from '../plan/baseMap';
+import type { Surface } from '../plan/interaction';
 import type { LiveLayer, MapLayer } from '../plan/layer';
 import { createFloorPicture, type FloorPicture, repaintFloor } from '../plan/floorPicture';
 import { handOf, remarkOf } from '../plan/paint';
@@ -50,7 +51,7 @@ export function ScenePanel(
   },
 ): JSX.Element {
   const { lab, interaction, layers, palette } = props;
-  const { hand, reachPx, focused, cursor } = interaction;
+  const { act, reachPx, focused, cursor } = interaction;
   const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
@@ -80,23 +81,21 @@ export function ScenePanel(
     }
   };
   const start = (canvas: HTMLCanvasElement): void => {
-    // After the hand, which has handled the press.
-    canvas.addEventListener('pointermove', (event) => {
-      // A small movement does not turn the view: the goal of a click would be at the wrong place.
-      if (hand.drag().kind === 'pressed') event.stopPropagation();
-    });
-    canvas.addEventListener('pointerdown', ({ isPrimary }) => {
-      // Two fingers turn and zoom, so the first one was not a click.
-      if (!isPrimary) hand.release('second finger');
-    });
-    canvas.addEventListener('keydown', (event) => {
-      if (event.ctrlKey || event.altKey || event.metaKey) return;
-      if (drawing()?.key(event.key)) event.preventDefault();
-    });
+    setCanvas(canvas);
     open(canvas).catch((reason: unknown) => {
       setProblem(reason instanceof Error ? reason.message : String(reason));
       props.onProblem?.();
     });
+  };
+  /** A pointer that takes the bead does not move the view. */
+  const isHeld = (): boolean => {
+    const now = act();
+    return now.kind === 'held' ? now.by !== 'keyboard' : now.kind === 'pressed' && now.onBead;
+  };
+  const surface: Surface = {
+    motion: () => (props.isFixed || isHeld() ? undefined : drawing()?.orbit),
+    key: (key) => drawing()?.orbit.key(key) ?? false,
+    turned: (arrow) => drawing()?.orbit.turned(arrow) ?? arrow,
   };
   onCleanup(() => {
     isGone = true;
@@ -121,7 +120,7 @@ export function ScenePanel(
   createEffect(
     on(
       () => props.whole?.(),
-      () => drawing()?.goTo('Home'),
+      () => drawing()?.orbit.take('Home'),
       { defer: true },
     ),
   );
@@ -159,18 +158,12 @@ export function ScenePanel(
     drawing()?.hang(pictures);
   });
 
-  createEffect(() => {
-    const drag = hand.drag();
-    const holds =
-      drag.kind === 'held' ? drag.by !== 'keyboard' : drag.kind === 'pressed' && drag.onBead;
-    drawing()?.setFree(!holds && !props.isFixed);
-  });
   const pull = createMemo(() => {
     const [scene, state] = [lab.scene(), lab.state()];
-    const drag = hand.drag();
+    const now = act();
     if (!scene || !state) return undefined;
-    const hand_m = handOf(drag, state, scene);
-    return hand_m && { hand_m, lifted: drag.kind === 'held' && drag.lift };
+    const hand_m = handOf(now, state, scene);
+    return hand_m && { hand_m, lifted: now.kind === 'held' && now.lift };
   });
   createEffect(() => {
     const state = lab.state();
@@ -192,7 +185,7 @@ export function ScenePanel(
     if (!now || !state || !at) return undefined;
     const stretched_m = distance([state.bead_m[0], state.bead_m[1]], now.hand_m);
     const parts = [newtons(state.hand_force_n), centimetres(stretched_m)];
-    const remark = remarkOf(hand.drag(), state);
+    const remark = remarkOf(act(), state);
     if (remark) parts.push(remark);
     // To the left of the pointer if there is no space on the right.
     const side = at[0] > 0.7 * size().width ? 'left' : 'right';
@@ -207,12 +200,9 @@ export function ScenePanel(
         label="Scene"
         class="scene-canvas"
         helpId={props.helpId}
-        onCanvas={(onto) => {
-          setCanvas(onto);
-          start(onto);
-        }}
+        surface={surface}
+        onCanvas={start}
         onSize={setSize}
-        turned={(arrow) => drawing()?.turned(arrow) ?? arrow}
       />
       <Show when={label()}>
         {(now) => (
@@ -251,7 +241,7 @@ export function ScenePanel(
                   type="button"
                   class="small"
                   onClick={() => {
-                    view().goTo(name);
+                    view().orbit.take(name);
                   }}
                 >
                   {name}

@@ -12,7 +12,6 @@ import { Bead, type Pull } from './bead';
 import { OrbitCamera } from './orbitCamera';
 import { Floor } from './floor';
 import { Light } from './light';
-import type { ViewpointName } from './viewpoints';
 import { Marks } from './marks';
 import type { LoadedLayer } from './sceneLayer';
 import { Paints } from './paints';
@@ -54,12 +53,11 @@ export class SceneView {
   private readonly light = new Light();
   private readonly paints: Paints;
   private readonly arm: Arm;
-  private readonly orbit: OrbitCamera;
+  readonly orbit: OrbitCamera;
   private setting: Setting | undefined;
   private floor: Floor | undefined;
   private sheets: readonly ToolSheet[] = [];
   private now: Now | undefined;
-  private view: TableView | undefined;
   private frame: number | undefined;
 
   constructor(
@@ -82,7 +80,7 @@ export class SceneView {
     this.arm = new Arm(this.paints);
     this.arm.group.visible = false;
     this.world.add(this.light.group, this.arm.group);
-    this.orbit = new OrbitCamera(canvas, () => {
+    this.orbit = new OrbitCamera(() => {
       this.updateView();
     });
     canvas.addEventListener('webglcontextrestored', this.request);
@@ -155,22 +153,6 @@ export class SceneView {
     this.place();
   }
 
-  setFree(free: boolean): void {
-    this.orbit.setFree(free);
-  }
-
-  goTo(name: ViewpointName): void {
-    this.orbit.take(name);
-  }
-
-  key(key: string): boolean {
-    return this.orbit.key(key);
-  }
-
-  turned(arrow: Vec2): Vec2 {
-    return this.orbit.turned(arrow);
-  }
-
   dispose(): void {
     if (this.frame !== undefined) cancelAnimationFrame(this.frame);
     this.canvas.removeEventListener('webglcontextrestored', this.request);
@@ -180,7 +162,6 @@ export class SceneView {
     disposeGeometries(this.arm.group);
     this.light.dispose();
     this.paints.dispose();
-    this.orbit.dispose();
     this.renderer.dispose();
     // A browser has few contexts and frees unused ones late.
     this.renderer.forceContextLoss();
@@ -231,7 +212,6 @@ export class SceneView {
 
   private updateView(): void {
     const { view, pxFromTable } = this.orbit.view();
-    this.view = view;
     this.canvas.dataset.pxFromTable = pxFromTable.join(',');
     this.onView(view);
     this.request();
@@ -252,17 +232,5 @@ export class SceneView {
     this.paints.fade(HIDING, orbit.hiding());
     setting.bead.fit(orbit.camera);
     renderer.render(this.world, orbit.camera);
-    this.showState(now.state);
-  }
-
-  /** For tests and other tools that read the page. */
-  private showState(state: StateMessage): void {
-    const [x, y, z] = state.bead_m;
-    const { dataset } = this.canvas;
-    dataset.beadPx = this.view?.toPx([x, y], z)?.join(',') ?? '';
-    const { memory, render } = this.renderer.info;
-    dataset.frames = String(render.frame);
-    dataset.geometries = String(memory.geometries);
-    dataset.textures = String(memory.textures);
   }
 }

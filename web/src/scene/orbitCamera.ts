@@ -1,25 +1,40 @@
-// The scene camera: mouse and touch turn it (OrbitControls of three), keys and buttons too.
+// The scene camera on its sphere around a target: pressed pointers, the wheel, keys and buttons move it.
 
-import { MOUSE, Matrix4, PerspectiveCamera } from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Matrix4, PerspectiveCamera, Spherical, Vector3 } from 'three';
+import { distance, type TableView, type Vec2 } from '../lab/geometry';
 import type { Rect } from '../net/protocol.gen';
+import type { Effect } from '../plan/gesture';
+import type { Motion } from '../plan/interaction';
 import { distanceFor, hidingAt, turnedArrow, type ViewpointName, viewpointOf } from './viewpoints';
 import { perspectiveView, pxFromTable } from './perspective';
-import type { TableView, Vec2 } from '../lab/geometry';
 
 const FIELD_OF_VIEW_DEG = 36;
+const FIELD_OF_VIEW_RAD = (FIELD_OF_VIEW_DEG * Math.PI) / 180;
 const NEAR_M = 0.02;
 const FAR_M = 12;
 const MIN_DISTANCE_M = 0.06;
 const MAX_DISTANCE_M = 5;
+/** From exactly above, the picture would have no defined upper side. */
+const MIN_POLAR_RAD = 1e-6;
 /** The table is not seen from below. */
 const MAX_POLAR_RAD = (88 * Math.PI) / 180;
 const KEY_TURN_RAD = Math.PI / 24;
 const KEY_ZOOM = 0.88;
+/** Factor of the distance for 100 pixels of the wheel, or of a movement with the middle button. */
+const ZOOM_PER_100_PX = 0.95;
+/** Two fingers on a touchpad come as a wheel with Ctrl and small steps. */
+const TOUCHPAD = { most_px: 50, factor: 10 };
 
-export class OrbitCamera {
+const clamp = (value: number, least: number, most: number): number =>
+  Math.min(most, Math.max(least, value));
+const zoomBy = (px: number): number => ZOOM_PER_100_PX ** (-px / 100);
+
+export class OrbitCamera implements Motion {
+  readonly allButtons = true;
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, NEAR_M, FAR_M);
-  private readonly controls: OrbitControls;
+  private readonly target = new Vector3();
+  /** Where the camera is, seen from the target, with the angles of a vertical axis. */
+  private readonly seat = new Spherical();
   private readonly clipFromBase = new Matrix4();
   private width_px = 1;
   private height_px = 1;
@@ -27,23 +42,31 @@ export class OrbitCamera {
   /** The chosen viewpoint until the user turns the view. While it is set, its distance follows the canvas size. */
   private viewpoint: ViewpointName | undefined = 'Home';
 
-  constructor(canvas: HTMLCanvasElement, onChange: () => void) {
+  constructor(private readonly onChange: () => void) {
     this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.maxPolarAngle = MAX_POLAR_RAD;
-    this.controls.minDistance = MIN_DISTANCE_M;
-    this.controls.maxDistance = MAX_DISTANCE_M;
-    this.controls.zoomToCursor = true;
-    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
-    this.controls.addEventListener('start', () => {
-      this.viewpoint = undefined;
-    });
-    this.controls.addEventListener('change', onChange);
   }
 
-  /** Whether a press turns the view; not while it holds the bead. */
-  setFree(free: boolean): void {
-    this.controls.enabled = free;
+  move({ from, to, press, grip }: Effect & { type: 'move' }): void {
+    const by: Vec2 = [to[0] - from[0], to[1] - from[1]];
+    const rad = (2 * Math.PI) / this.height_px;
+    if (grip === 'turn') this.turn(by[0] * rad, by[1] * rad);
+    else if (grip === 'shift') this.shift(by);
+    else this.zoom(zoomBy(by[1]), press);
+    this.place();
+  }
+
+  pinch({ from, to, other }: Effect & { type: 'pinch' }): void {
+    const middle: Vec2 = [(to[0] + other[0]) / 2, (to[1] + other[1]) / 2];
+    this.zoom(Math.max(1, distance(from, other)) / Math.max(1, distance(to, other)), middle);
+    this.shift([(to[0] - from[0]) / 2, (to[1] - from[1]) / 2]);
+    this.place();
+  }
+
+  wheel({ ctrlKey }: Pick<WheelEvent, 'ctrlKey'>, delta_px: number, at: Vec2): boolean {
+    const isTouchpad = ctrlKey && Math.abs(delta_px) < TOUCHPAD.most_px;
+    this.zoom(zoomBy(delta_px * (isTouchpad ? TOUCHPAD.factor : 1)), at);
+    this.place();
+    return true;
   }
 
   resize(width_px: number, height_px: number): void {
@@ -64,38 +87,36 @@ export class OrbitCamera {
 
   take(name: ViewpointName): void {
     if (!this.workspace) return;
-    this.viewpoint = name;
     const viewpoint = viewpointOf(name, this.workspace);
-    const away_m = distanceFor(viewpoint, (FIELD_OF_VIEW_DEG * Math.PI) / 180, this.camera.aspect);
-    this.controls.target.set(...viewpoint.target_m);
-    this.camera.position
-      .set(...viewpoint.toCamera)
-      .setLength(away_m)
-      .add(this.controls.target);
-    this.controls.update();
+    this.target.set(...viewpoint.target_m);
+    const [x, y, z] = viewpoint.toCamera;
+    this.seat.setFromCartesianCoords(x, z, -y);
+    this.seat.radius = distanceFor(viewpoint, FIELD_OF_VIEW_RAD, this.camera.aspect);
+    this.place();
+    this.viewpoint = name;
   }
 
   /** Handles a key. Returns false for other keys. */
   key(key: string): boolean {
     switch (key) {
       case '[':
-        this.controls.rotateLeft(KEY_TURN_RAD);
+        this.turn(KEY_TURN_RAD, 0);
         break;
       case ']':
-        this.controls.rotateLeft(-KEY_TURN_RAD);
+        this.turn(-KEY_TURN_RAD, 0);
         break;
       case 'PageUp':
-        this.controls.rotateUp(KEY_TURN_RAD);
+        this.turn(0, KEY_TURN_RAD);
         break;
       case 'PageDown':
-        this.controls.rotateUp(-KEY_TURN_RAD);
+        this.turn(0, -KEY_TURN_RAD);
         break;
       case '+':
       case '=':
-        this.controls.dollyIn(KEY_ZOOM);
+        this.zoom(KEY_ZOOM);
         break;
       case '-':
-        this.controls.dollyOut(KEY_ZOOM);
+        this.zoom(1 / KEY_ZOOM);
         break;
       case 'Home':
         this.take('Home');
@@ -103,18 +124,18 @@ export class OrbitCamera {
       default:
         return false;
     }
-    this.viewpoint = undefined;
+    this.place();
     return true;
   }
 
   /** Direction on the table of an arrow on the screen. */
   turned(arrow: Vec2): Vec2 {
-    return turnedArrow(arrow, this.controls.getAzimuthalAngle());
+    return turnedArrow(arrow, this.seat.theta);
   }
 
   /** Opacity of objects over the table, from 0 to 1: low when seen from above. */
   hiding(): number {
-    return hidingAt(this.controls.getPolarAngle());
+    return hidingAt(this.seat.phi);
   }
 
   /** The present mapping of the table, with its matrix for tools that read the page. */
@@ -128,7 +149,44 @@ export class OrbitCamera {
     };
   }
 
-  dispose(): void {
-    this.controls.dispose();
+  private turn(left_rad: number, up_rad: number): void {
+    this.seat.theta -= left_rad;
+    this.seat.phi = clamp(this.seat.phi - up_rad, MIN_POLAR_RAD, MAX_POLAR_RAD);
+  }
+
+  /** Moves the target with the pointer. */
+  private shift([right_px, down_px]: Vec2): void {
+    const mPerPx = (2 * this.seat.radius * Math.tan(FIELD_OF_VIEW_RAD / 2)) / this.height_px;
+    const axis = new Vector3();
+    this.target.addScaledVector(
+      axis.setFromMatrixColumn(this.camera.matrix, 0),
+      -right_px * mPerPx,
+    );
+    this.target.addScaledVector(axis.setFromMatrixColumn(this.camera.matrix, 1), down_px * mPerPx);
+  }
+
+  /** Changes the distance. What is seen at `at` stays there; in the middle by default. */
+  private zoom(by: number, at?: Vec2): void {
+    const before_m = this.seat.radius;
+    this.seat.radius = clamp(before_m * by, MIN_DISTANCE_M, MAX_DISTANCE_M);
+    if (!at) return;
+    const { camera, target } = this;
+    const back = camera.getWorldDirection(new Vector3()).negate();
+    const ray = new Vector3(2 * (at[0] / this.width_px) - 1, 1 - 2 * (at[1] / this.height_px), 1)
+      .unproject(camera)
+      .sub(camera.position)
+      .normalize();
+    target.addScaledVector(ray.add(back), before_m - this.seat.radius);
+  }
+
+  private place(): void {
+    const { camera, seat, target } = this;
+    this.viewpoint = undefined;
+    // The angles of three have an axis along y.
+    const { x, y, z } = new Vector3().setFromSpherical(seat);
+    camera.position.set(x, -z, y).add(target);
+    camera.lookAt(target);
+    camera.updateMatrixWorld();
+    this.onChange();
   }
 }

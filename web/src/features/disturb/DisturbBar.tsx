@@ -26,7 +26,7 @@ import {
 } from '../../net/protocol.gen';
 import { ScriptList } from './ScriptList';
 import { type Place, placeAt, PlaceFields } from './PlaceFields';
-import type { Picker } from '../../plan/picker';
+import type { Picker } from '../../plan/interaction';
 import type { Session, Trial } from '../../lab/slices';
 import { ChoiceField, NumberField } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';

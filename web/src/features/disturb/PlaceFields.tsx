@@ -2,7 +2,7 @@
 
 import { For, onCleanup, type JSX } from 'solid-js';
 import type { Vec2 } from '../../lab/geometry';
-import type { Picker } from '../../plan/picker';
+import type { Picker } from '../../plan/interaction';
 import { NumberField } from '../../ui/fields/fields';
 
 /** As typed. */

@@ -2,11 +2,12 @@
 
 import { createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
 import { createCameraBitmap } from '../../lab/cameraBitmap';
-import type { TableView, Vec2 } from '../../lab/geometry';
+import type { TableView } from '../../lab/geometry';
 import { type Homography, pictureFromTable, tableFromPicture } from '../../lab/homography';
 import type { Notices } from '../../lab/slices';
 import { CAMERA_PX } from '../../net/protocol.gen';
 import type { SurfaceProps } from '../../plan/PlanView';
+import { contextOf } from '../../plan/sheet';
 import { type Size, ViewCanvas } from '../../plan/ViewCanvas';
 import './steer.css';
 
@@ -46,16 +47,21 @@ export function CameraView(
   createEffect(() => {
     interaction.setView(view());
   });
-  const paint = (onto: HTMLCanvasElement, ratio: number): void => {
-    const { width, height } = size();
-    [onto.width, onto.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-    const ctx = onto.getContext('2d');
-    const picture = bitmap();
+  // A viewer sees the hand in every state, and it mostly stays where it was.
+  const hand = createMemo(
+    () => lab.steering.target() ?? lab.state()?.steer_m ?? undefined,
+    undefined,
+    {
+      equals: (a, b) => a?.[0] === b?.[0] && a?.[1] === b?.[1],
+    },
+  );
+  createEffect(() => {
+    const [onto, { width, height }] = [canvas(), size()];
+    const ctx = onto && contextOf(onto, { width, height });
+    const [picture, to] = [bitmap(), hand()];
     if (!ctx || !picture) return;
     const { left, top, side } = squareIn({ width, height });
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     ctx.drawImage(picture, left, top, side, side);
-    const to: Vec2 | null | undefined = lab.steering.target() ?? lab.state()?.steer_m;
     const px = to && view()?.toPx(to);
     if (!px) return;
     ctx.strokeStyle = palette().you;
@@ -63,10 +69,6 @@ export function CameraView(
     ctx.beginPath();
     ctx.arc(...px, 7, 0, 2 * Math.PI);
     ctx.stroke();
-  };
-  createEffect(() => {
-    const onto = canvas();
-    if (onto) paint(onto, window.devicePixelRatio);
   });
   createEffect(() => {
     const own = canvas();

@@ -10,7 +10,9 @@ import {
 } from '../../net/protocol.gen';
 import { wallPath } from '../../plan/drawMap';
 import { createValues } from '../../plan/drawValues';
+import { contextOf } from '../../plan/sheet';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
+import type { Size } from '../../plan/ViewCanvas';
 import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
 import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
@@ -42,26 +44,11 @@ interface PlanProps {
   readonly onChoose: (place: Vec2) => void;
 }
 
-/** The canvas, cleared, with one unit per CSS pixel. */
-function contextOf(
-  canvas: HTMLCanvasElement,
-  size: readonly [number, number],
-): CanvasRenderingContext2D | null {
-  const ratio = window.devicePixelRatio;
-  const [width, height] = [Math.round(size[0] * ratio), Math.round(size[1] * ratio)];
-  if (canvas.width !== width) canvas.width = width;
-  if (canvas.height !== height) canvas.height = height;
-  const ctx = canvas.getContext('2d');
-  ctx?.setTransform(ratio, 0, 0, ratio, 0, 0);
-  ctx?.clearRect(0, 0, ...size);
-  return ctx;
-}
-
 export function TrainingPlan(props: PlanProps): JSX.Element {
   let base!: HTMLCanvasElement;
   let moving!: HTMLCanvasElement;
   const isStill = prefersLessMotion();
-  const [size, setSize] = createSignal<readonly [number, number]>();
+  const [size, setSize] = createSignal<Size>();
   const workspace = createMemo(
     () => props.map?.workspace ?? (props.cells ? around(props.cells) : undefined),
   );
@@ -75,7 +62,7 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   };
   const view = createMemo<View | undefined>(() => {
     const [rect, now] = [shown(), size()];
-    return rect && now && fitView(rect, ...now, MARGIN);
+    return rect && now && fitView(rect, now.width, now.height, MARGIN);
   });
   const walls = createMemo(() => {
     const now = view();
@@ -96,7 +83,9 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   });
 
   onMount(() => {
-    const observer = new ResizeObserver(() => setSize([base.clientWidth, base.clientHeight]));
+    const observer = new ResizeObserver(() =>
+      setSize({ width: base.clientWidth, height: base.clientHeight }),
+    );
     observer.observe(base);
     onCleanup(() => {
       observer.disconnect();
