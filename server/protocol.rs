@@ -18,6 +18,7 @@ mod jobs;
 mod layers;
 mod lumen;
 mod maps;
+mod page;
 mod parse;
 mod policies;
 mod programs;
@@ -51,6 +52,7 @@ pub use layers::{
 };
 pub use lumen::{Lumen, WallRing};
 pub use maps::{MapCheck, MapFacts, MapReport, NarrowPlace};
+pub use page::View;
 pub use parse::Envelope;
 pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};

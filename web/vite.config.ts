@@ -50,7 +50,7 @@ const opensSessions = (): Plugin => ({
   name: 'opens-sessions',
   configureServer({ middlewares }) {
     middlewares.use(({ url = '' }, _response, next) => {
-      if (!/^\/(s\/[^/]+|demo)?(\?|$)/.test(url)) {
+      if (!/^\/(s\/[^?]+|demo)?(\?|$)/.test(url)) {
         next();
         return;
       }

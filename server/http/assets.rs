@@ -8,6 +8,8 @@ use axum::body::{Body, Bytes};
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use serde::de::{IntoDeserializer, value::Error as ValueError};
 use xxhash_rust::xxh3::xxh3_64;
 
 use super::Server;
@@ -15,6 +17,7 @@ use super::base::BasePath;
 use super::problem::Problem;
 use super::sessions::{DEMO, MAIN};
 use super::site::comes_from_another_site;
+use crate::protocol::View;
 
 /// Content security policy of the viewer's page: it may compile WebAssembly, and our own page may frame it.
 const VIEWER_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
@@ -147,12 +150,25 @@ pub async fn main_session(State(server): State<Arc<Server>>, headers: HeaderMap)
     Ok(server.page.send("index.html", &headers))
 }
 
-/// `GET /s/{name}`: the page with the session of that name. The session is created if it does not exist.
+/// The address of a session's page.
+#[derive(Deserialize)]
+pub struct Address {
+    name: String,
+    /// A [`View`]; the laboratory if missing.
+    view: Option<String>,
+}
+
+/// `GET /s/{name}`, `/s/{name}/{view}` and `/s/{name}/learn/{lesson}`: the page with the session of that name. The session
+/// is created if it does not exist. The page knows the lessons.
 pub async fn named_session(
     State(server): State<Arc<Server>>,
-    Path(name): Path<String>,
+    Path(Address { name, view }): Path<Address>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
+    if let Some(view) = view {
+        let known: Result<View, ValueError> = View::deserialize(view.as_str().into_deserializer());
+        known.map_err(|_| Problem::not_found("view", &view))?;
+    }
     if server.sessions.find(&name).is_none() && comes_from_another_site(&headers) {
         let detail = format!(
             "session {name:?} is not open, and a link from another site does not open one: enter this address yourself"

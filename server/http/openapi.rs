@@ -141,7 +141,9 @@ mod tests {
         let paths: BTreeSet<&str> = document["paths"].as_object().unwrap().keys().map(String::as_str).collect();
         assert!(served.len() > 25, "only {served:?} were found");
         // The fallback is the page.
-        let fallbacks = BTreeSet::from(["/", "/s/{name}", "/demo", "/board", "/{*__private__axum_fallback}"]);
+        let named = ["/s/{name}", "/s/{name}/{view}", "/s/{name}/learn/{lesson}"];
+        let fallbacks = BTreeSet::from(["/", "/demo", "/board", "/{*__private__axum_fallback}"]);
+        let fallbacks = &fallbacks | &BTreeSet::from(named);
         assert_eq!(served.difference(&fallbacks).copied().collect::<BTreeSet<_>>(), paths);
     }
 

@@ -110,6 +110,8 @@ pub fn served() -> Router<Arc<Server>> {
     Router::from(described())
         .route("/", get(assets::main_session))
         .route("/s/{name}", get(assets::named_session))
+        .route("/s/{name}/{view}", get(assets::named_session))
+        .route("/s/{name}/learn/{lesson}", get(assets::named_session))
         .route("/demo", get(assets::demo))
         .route("/board", get(assets::board))
         .method_not_allowed_fallback(problem::method_not_allowed)

@@ -146,7 +146,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 RefusalCode
             ],
         ),
-        ("session", declared![SceneMessage, KeptRun, CaseSummary, StateMessage]),
+        ("session", declared![View, SceneMessage, KeptRun, CaseSummary, StateMessage]),
         ("layers", declared![SensedObstacle, OverlayMessage, BlocksLayer, PlanLayer, SeenMessage, JudgementLayer]),
         ("comparison", declared![Branch, ComparisonMessage, MomentMessage]),
         (

@@ -127,7 +127,7 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
 }
 
 test('the tests above cover every view and every tab list', async ({ lab }) => {
-  const views = lab.page.getByRole('navigation', { name: 'Views' }).getByRole('button');
+  const views = lab.page.getByRole('navigation', { name: 'Views' }).getByRole('link');
   await expect(views).toHaveText(VIEWS);
   for (const name of VIEWS) {
     await lab.view(name).click();

@@ -75,7 +75,7 @@ for (const [name, launch] of Object.entries(OTHER_BROWSERS)) {
         await mkdir(OUTPUT, { recursive: true });
         await writeFile(join(OUTPUT, `${name}-${LANG}.png`), await browser.picture());
 
-        await click(browser, 'nav button', 'Draw');
+        await click(browser, 'nav a', 'Draw');
         const isThere = `document.querySelector('.draw-surface') !== null`;
         await expect.poll(() => browser.read(isThere), 'the map editor').toBe(true);
         const surface = await browser.read<Place>(`(() => {

@@ -37,7 +37,7 @@ async function fillIn(page: Page, values: FormValues) {
   const form = page.getByRole('region', { name: 'New evaluation' });
   // The view is loaded when it opens.
   await expect(form.getByRole('checkbox', { name: 'posts', exact: true })).toBeVisible();
-  await page.getByRole('button', { name: 'Evaluate', exact: true }).focus();
+  await page.getByRole('link', { name: 'Evaluate', exact: true }).focus();
   for (const [legend, wanted] of [
     ['Controllers', values.controllers],
     ['Maps', values.maps],

@@ -76,7 +76,7 @@ const ENDS: Record<string, (lab: Lab) => Promise<unknown>> = {
   'another view opens': async (lab) => {
     await lab.page.keyboard.press('Escape');
     // By script, because the mouse button is pressed.
-    await lab.button('Recordings').evaluate((button: HTMLElement) => {
+    await lab.view('Recordings').evaluate((button: HTMLElement) => {
       button.click();
     });
   },

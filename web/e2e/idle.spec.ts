@@ -28,7 +28,7 @@ test('a page at rest makes no request, in any view, after each tab was open', as
   for (const name of ['Draw', 'Train', 'Recordings', 'Evaluate', 'Laboratory']) {
     await page
       .getByRole('navigation', { name: 'Views' })
-      .getByRole('button', { name, exact: true })
+      .getByRole('link', { name, exact: true })
       .click();
     let count = -1;
     await until('the requests of the view', async () => {

@@ -81,7 +81,7 @@ test('asks for the token, and sends it in the request body only', async ({ conte
   expect(await page.evaluate(() => document.cookie), 'a script can read the cookie').toBe('');
 
   // The server answers requests until the login has ended.
-  await page.getByRole('button', { name: 'Recordings' }).click();
+  await page.getByRole('link', { name: 'Recordings' }).click();
   await page.getByRole('heading', { name: 'Recordings' }).waitFor();
   await expect(page.getByRole('row', { name: 'anna' }).first()).toBeVisible();
   await context.clearCookies();

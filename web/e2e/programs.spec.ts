@@ -59,7 +59,7 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   await lab.button('Start comparison').click();
   const compared = lab.page.getByRole('row', { name: /^straight/ });
   await expect(compared).toContainText('delivered', { timeout: RUN_MS });
-  await lab.button('Evaluate').click();
+  await lab.view('Evaluate').click();
   const form = lab.page.getByRole('region', { name: 'New evaluation' });
   await form.getByLabel('straight', { exact: true }).check();
   for (const other of ['RL', 'colon', '3']) await form.getByLabel(other, { exact: true }).uncheck();
@@ -70,7 +70,7 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   // An earlier evaluation on this server may be shown until this one is.
   const row = lab.page.getByTestId('evaluation-row').filter({ hasText: 'straight' });
   await expect(row).toContainText('2/2', { timeout: RUN_MS });
-  await lab.button('Laboratory').click();
+  await lab.view('Laboratory').click();
 
   await disconnect();
   await lab.click(must(lab.freePoints(await lab.bead(), 0.1, 0.15).at(-1), 'another goal'));

@@ -63,8 +63,7 @@ test('asks a viewer before it loads a linked experiment', async ({ lab, openLab 
   }).toEqual({ seed, controller: 'errt', threshold_m: 0.08, start, link });
   await expect(question).toHaveText('');
 
-  // The page asks only once, although the address keeps the link: neither another map nor a change
-  // of control loads the experiment again.
+  // The page asks only once: neither another map nor a change of control loads it again.
   await second.reset({ map: 'open' });
   await second.releaseControl();
   await lab.takeControl();
@@ -77,10 +76,17 @@ test('loads a linked experiment at once for the operator', async ({ lab }) => {
   await lab.reset({ map: 'posts' });
   await setHash(lab, new URL(link).hash);
   await until('the map colon', isColon(lab));
-  // The page also loads it when it opens.
+  // It has left the address: a reload goes on with what came after.
+  await expect.poll(() => new URL(lab.page.url()).hash).toBe('');
   await lab.restoreDefaults();
   await lab.reset({ map: 'posts' });
+  const { trial } = lab.scene;
   await lab.page.reload();
+  await lab.live();
+  expect(lab.scene.trial, 'it was loaded again').toBe(trial);
+  // The page also loads it when it opens.
+  await lab.page.goto(new URL('/healthz', link).href);
+  await lab.page.goto(link);
   await until('the map colon again', isColon(lab));
   await lab.live();
 });

@@ -46,7 +46,7 @@ export const DRAW: Section = {
   name: 'the map editor',
   ready: view('Draw'),
   rows: {
-    'button Draw': {
+    'link Draw': {
       see: (lab) => lab.page.locator('.draw-surface').count(),
       ready: view('Evaluate'),
     },

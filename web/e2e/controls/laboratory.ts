@@ -54,9 +54,9 @@ async function typeSeed(input: InputMethod, locator: Parameters<InputMethod['pre
 export const VIEWS: Section = {
   name: 'views, colours and control',
   rows: {
-    'button Laboratory': { see: shownView, ready: view('Recordings') },
-    'button Recordings': { see: shownView, after: view('Laboratory') },
-    'button Evaluate': { see: shownView, after: view('Laboratory') },
+    'link Laboratory': { see: shownView, ready: view('Recordings') },
+    'link Recordings': { see: shownView, after: view('Laboratory') },
+    'link Evaluate': { see: shownView, after: view('Laboratory') },
     'button Use light colours': { see: theme, ready: ensureTheme('dark') },
     'button Use dark colours': { see: theme, ready: ensureTheme('light') },
     'button Release control': { see: role },

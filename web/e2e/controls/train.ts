@@ -45,7 +45,7 @@ export const TRAIN: Section = {
     await clearTrainings(lab.page.request, originOf(lab));
   },
   rows: {
-    'button Train': {
+    'link Train': {
       see: (lab) => lab.page.locator('main.train').count(),
       ready: view('Evaluate'),
     },

@@ -66,7 +66,7 @@ export class Lab extends Stepper {
   view(name: string) {
     return this.page
       .getByRole('navigation', { name: 'Views' })
-      .getByRole('button', { name, exact: true });
+      .getByRole('link', { name, exact: true });
   }
 
   radio(name: string) {

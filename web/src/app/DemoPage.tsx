@@ -17,7 +17,7 @@ const GRAB_PX = 56;
 
 export function DemoPage(): JSX.Element {
   const { theme } = createTheme();
-  const lab = createLab(window.location, MAP_LAYERS);
+  const lab = createLab(window, MAP_LAYERS);
   const palette = createPalette(theme);
   const interaction = createInteraction(lab, GRAB_PX);
   const layers = createLayers(MAP_LAYERS, lab, palette);

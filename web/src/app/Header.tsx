@@ -2,12 +2,12 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import type { Theme } from '../ui/theme';
-import { type View, VIEWS } from './views';
 import { ConnectionStatus } from './ConnectionStatus';
 import { KeyboardHelp } from './KeyboardHelp';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import { isLedFromOutside } from '../lab/outside';
 import type { Lab, Notices, Session } from '../lab/slices';
+import { VIEWS, type View } from '../lab/address';
 import { takeControl } from '../lab/takeControl';
 import type { PhaseFact } from '../net/protocol.gen';
 import { phaseName, phaseWords } from '../words/facts';
@@ -61,8 +61,6 @@ interface HeaderProps {
   readonly lab: Lab;
   readonly theme: () => Theme;
   readonly onTheme: () => void;
-  readonly view: View;
-  readonly onView: (view: View) => void;
 }
 
 /** Whether everything is recorded. The title has the whole status. */
@@ -84,18 +82,20 @@ export function Header(props: HeaderProps): JSX.Element {
         <p class="safety">Simulation, not safety-rated</p>
       </div>
       <nav class="views" aria-label="Views">
-        <For each={VIEWS}>
-          {([id, title]) => (
-            <button
-              type="button"
-              class="small"
-              aria-current={props.view === id ? 'page' : undefined}
-              onClick={() => {
-                props.onView(id);
+        <For each={Object.entries(VIEWS) as [View, string][]}>
+          {([view, title]) => (
+            <a
+              href={lab.address.of(view)}
+              aria-current={lab.address.view() === view ? 'page' : undefined}
+              onClick={(event) => {
+                // With a modifier, the browser opens another tab or window.
+                if (event.ctrlKey || event.metaKey || event.shiftKey || event.altKey) return;
+                event.preventDefault();
+                lab.address.show(view);
               }}
             >
               {title}
-            </button>
+            </a>
           )}
         </For>
       </nav>
@@ -144,7 +144,7 @@ export function Header(props: HeaderProps): JSX.Element {
         <Counter label="steps" testid="steps" value={lab.state()?.steps} />
       </dl>
       <div class="page-tools">
-        <KeyboardHelp lab={lab} view={props.view} />
+        <KeyboardHelp lab={lab} />
         <button
           type="button"
           class="small"

@@ -5,7 +5,6 @@ import { pageShortcuts } from './pageShortcuts';
 import { attachShortcuts, keyName } from '../ui/shortcuts';
 import { CONTROLLERS, CONTROLLER_HELP } from '../lab/parameters';
 import { recall, remember } from '../ui/storage';
-import type { View } from './views';
 import type { Lab } from '../lab/slices';
 import './KeyboardHelp.css';
 
@@ -31,13 +30,13 @@ function WhatYouSee(): JSX.Element {
   );
 }
 
-export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
+export function KeyboardHelp(props: { lab: Lab }): JSX.Element {
   let dialog!: HTMLDialogElement;
   const [areOn, setOn] = createSignal(recall(KEY) !== 'off');
   const open = (): void => {
     if (!dialog.open) dialog.showModal();
   };
-  const shortcuts = pageShortcuts(props.lab, () => props.view === 'laboratory', open);
+  const shortcuts = pageShortcuts(props.lab, () => props.lab.address.view() === 'laboratory', open);
   const groups = [...new Set(shortcuts.map(({ group }) => group))];
   onCleanup(attachShortcuts(shortcuts, areOn));
   const choose = (on: boolean): void => {

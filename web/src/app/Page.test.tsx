@@ -33,6 +33,7 @@ const OPERATOR_BUTTONS = [
 const PANELS = ['camera', 'parameters', 'lower', 'aside'];
 
 const button = (name: string) => page.getByRole('button', { name, exact: true });
+const view = (name: string) => page.getByRole('link', { name, exact: true });
 const notice = (place: string) => document.querySelector(`[data-place=${place}] .notice`);
 const canvas = page.getByLabelText('Workspace', { exact: true });
 
@@ -204,19 +205,19 @@ it('takes a drawing that is dropped in another view', async () => {
   const server = await open({ 'POST /api/maps': () => REPORT });
   server.hello({ role: 'viewer' });
   await expect.element(button('Run')).toBeDisabled();
-  await button('Recordings').click();
+  await view('Recordings').click();
   drop('Dropped.SVG', '<svg/>');
   await expect
     .poll(() => notice('transport')?.textContent)
     .toContain('Take control to open a map.');
   server.hello();
   await expect.element(button('Run')).toBeEnabled();
-  await button('Recordings').click();
+  await view('Recordings').click();
   drop('Dropped.SVG', '<svg/>');
   await expect.poll(() => server.command('load_scenario')?.map).toBe('dropped');
   server.scene({ map: 'dropped' });
   await expect.element(page.getByText('580 × 330 mm, 2 walls.')).toBeVisible();
-  await expect.element(button('Laboratory')).toHaveAttribute('aria-current', 'page');
+  await expect.element(view('Laboratory')).toHaveAttribute('aria-current', 'page');
 });
 
 it('has Run among the first ten stops of the Tab key', async () => {

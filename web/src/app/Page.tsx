@@ -2,7 +2,8 @@
 
 // Imported first, so that the panels' styles override it.
 import './Page.css';
-import { Match, Switch, createSignal, type JSX } from 'solid-js';
+import { Match, Switch, createEffect, createSignal, type JSX } from 'solid-js';
+import { VIEWS } from '../lab/address';
 import { createLab } from '../lab/lab';
 import { followChallengeLink } from '../lab/pageChallenge';
 import { createPageExperiment } from '../lab/pageExperiment';
@@ -37,24 +38,28 @@ import { onFileDrop } from '../ui/fileDrop';
 import { createPalette } from '../ui/palette';
 import { createTheme } from '../ui/theme';
 import type { ViewPicture } from '../plan/viewPicture';
-import type { View } from './views';
 import { WorkspacePanel } from './WorkspacePanel';
 
 export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
-  const lab = createLab(window.location, MAP_LAYERS);
+  const lab = createLab(window, MAP_LAYERS);
   const links = createPageExperiment(lab, window);
   followChallengeLink(lab, window.location);
-  const [view, setView] = createSignal<View>('laboratory');
+  const { address } = lab;
+  const { view } = address;
   const [picture, setPicture] = createSignal<ViewPicture>();
   const capture = createCapture(lab, picture, createPalette(theme));
   const opener = createMapOpener(lab);
+  createEffect(() => {
+    document.title = view() === 'laboratory' ? 'Ferry' : `${VIEWS[view()]} – Ferry`;
+    if (address.lesson() !== undefined) lab.openTab('lessons');
+  });
   const drawing: DrawProps['kept'] = {};
   const training: TrainProps['kept'] = {};
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
-      setView('laboratory');
+      address.show('laboratory');
       void take(file);
     });
   };
@@ -64,7 +69,7 @@ export function Page(): JSX.Element {
   onDrop(/\.json$/i, (file) => openCase(lab, file));
   return (
     <>
-      <Header lab={lab} theme={theme} onTheme={toggle} view={view()} onView={setView} />
+      <Header lab={lab} theme={theme} onTheme={toggle} />
       <LiveRegion lab={lab} />
       <Switch>
         <Match when={view() === 'laboratory'}>
@@ -79,7 +84,7 @@ export function Page(): JSX.Element {
                   opener={opener}
                   onTrain={() => {
                     training.train?.showMap();
-                    setView('train');
+                    address.show('train');
                   }}
                 />
                 <PresetSelect lab={lab} links={links} />
@@ -111,7 +116,7 @@ export function Page(): JSX.Element {
             lab={lab}
             open={(file) => opener.open(file)}
             onLaboratory={() => {
-              setView('laboratory');
+              address.show('laboratory');
             }}
           />
         </Match>
@@ -121,11 +126,11 @@ export function Page(): JSX.Element {
             lab={lab}
             theme={theme}
             onLaboratory={() => {
-              setView('laboratory');
+              address.show('laboratory');
             }}
             onEvaluate={(policy, map) => {
               fillIn(policy, map);
-              setView('evaluate');
+              address.show('evaluate');
             }}
           />
         </Match>
@@ -137,7 +142,7 @@ export function Page(): JSX.Element {
             lab={lab}
             theme={theme}
             onLaboratory={() => {
-              setView('laboratory');
+              address.show('laboratory');
             }}
           />
         </Match>

@@ -12,6 +12,7 @@ import {
 } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
 import { type Answer, Commands, type Streamed } from './commands';
+import { createAddress } from './address';
 import { createCatalog } from './catalog';
 import { createComparison } from './comparison';
 import { createContest } from './contest';
@@ -35,7 +36,7 @@ type AnswerMessage = Extract<ServerMessage, { type: 'done' | 'refused' }>;
 const isAnswer = (message: ServerMessage): message is AnswerMessage =>
   message.type === 'done' || message.type === 'refused';
 
-export function createLab(page: Location, knownLayers: readonly KnownLayer[]): Lab {
+export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
@@ -87,7 +88,8 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     schedule();
   };
 
-  const name = sessionOf(page);
+  const { location } = page;
+  const name = sessionOf(location);
   const keeper = createKeeper(
     name,
     tabStorage(),
@@ -95,10 +97,10 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   );
   const socket = connect(
     {
-      address: () => liveAddress(page, name, keeper.seat()),
+      address: () => liveAddress(location, name, keeper.seat()),
       // Requesting its page again would restart it: the user decides that.
       isOver: () => ended() !== undefined,
-      reopen: () => openPage(pathOf(page.pathname)),
+      reopen: () => openPage(pathOf(location.pathname)),
     },
     {
       opened: () => {
@@ -163,6 +165,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   const edits = createEdits({ scene, canOperate, send });
   return {
     session: name,
+    address: createAddress(page),
     connection,
     hello,
     ended,

@@ -15,6 +15,7 @@ import {
   loadMessage,
   type Reading,
 } from './experimentLink';
+import { leaveAddress } from './address';
 import { drawnMap } from './drawingLink';
 import { knownBy } from './known';
 import type { Notices, Session, Trial } from './slices';
@@ -60,22 +61,31 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     const now = reading();
     return now.kind === 'experiment' ? now.experiment : undefined;
   });
-  const forget = (): void => {
+  /** Offers the experiment of the address no longer. */
+  const settle = (): void => {
     setHash('');
     setWanted(false);
   };
-  const send = async (experiment: Experiment): Promise<void> => {
+  /** Whether the experiment was loaded. */
+  const send = async (experiment: Experiment): Promise<boolean> => {
     const now = untrack(known);
-    if (!now) return;
+    if (!now) return false;
     try {
       const { drawing } = experiment;
       const map =
         drawing === null ? experiment.map : await drawnMap(experiment.map, drawing, now.maps);
-      await lab.send('playback', loadMessage({ ...experiment, map }, now.defaults));
+      const message = loadMessage({ ...experiment, map }, now.defaults);
+      return (await lab.send('playback', message)).kind === 'done';
     } catch (reason) {
       const why = reason instanceof Error ? reason.message : String(reason);
       lab.notify('playback', `The map of this link could not be added: ${why}`);
+      return false;
     }
+  };
+  /** The experiment leaves the address, so that a reload goes on with what the user has done since. */
+  const sendOnce = async (experiment: Experiment): Promise<void> => {
+    settle();
+    if (await send(experiment)) leaveAddress(page, 'hash');
   };
 
   // An operator who opens the page with a link wants to load it. The link is not offered again later.
@@ -86,8 +96,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     const may = lab.canOperate();
     // A reloaded page may be a viewer for a moment.
     if (experiment && may && (isFirst || lab.isReturning() || wanted())) {
-      void send(experiment);
-      forget();
+      void sendOnce(experiment);
     }
     isFirst = false;
   });
@@ -115,6 +124,9 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
       if (read.kind === 'experiment') await send(read.experiment);
       else if (read.kind === 'broken') lab.notify('playback', read.why);
     },
-    forget,
+    forget() {
+      leaveAddress(page, 'hash');
+      settle();
+    },
   };
 }

@@ -3,6 +3,7 @@
 import type { Accessor } from 'solid-js';
 import type { Picture } from '../net/connection';
 import type { ClientMessage, EventMessage, Parameters } from '../net/protocol.gen';
+import type { Address } from './address';
 import type { Answer, Streamed } from './commands';
 import type { Catalog } from './catalog';
 import type { Comparison } from './comparison';
@@ -92,6 +93,10 @@ export interface Compared {
   readonly comparison: Comparison;
 }
 
+export interface Addressed {
+  readonly address: Address;
+}
+
 export interface OpenTab {
   /** The tab to open, in any tab area. */
   readonly opened: Accessor<{ readonly tab: string } | undefined>;
@@ -110,4 +115,5 @@ export interface Lab
     Contested,
     Compared,
     Layers,
+    Addressed,
     OpenTab {}

@@ -154,6 +154,9 @@ export class FakeServer {
   }
 }
 
+/** The address of the tests, which show other views. */
+const START = location.href;
+
 let server = new FakeServer();
 let end: (() => void)[] = [];
 
@@ -195,6 +198,7 @@ afterEach(() => {
   document.body.replaceChildren();
   localStorage.clear();
   sessionStorage.clear();
+  history.replaceState(null, '', START);
 });
 
 /** The server that the next laboratory connects to. */
@@ -219,7 +223,7 @@ export function fakeLab(
   const played = fakeServer(answers);
   const lab = createRoot((dispose) => {
     end.push(dispose);
-    return createLab(window.location, layers);
+    return createLab(window, layers);
   });
   return { lab, server: played };
 }

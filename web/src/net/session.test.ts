@@ -7,7 +7,7 @@ it('the address names the session', () => {
     ['/s/anna', 'anna'],
     ['/s/group-7', 'group-7'],
     ['/s/Anna', 'main'],
-    ['/s/anna/more', 'main'],
+    ['/s/anna/train', 'anna'],
     [`/s/${'x'.repeat(33)}`, 'main'],
     ['/viewer/', 'main'],
   ] as const) {

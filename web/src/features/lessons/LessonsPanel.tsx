@@ -77,6 +77,9 @@ export function LessonsPanel(props: { lab: LessonsLab }): JSX.Element {
   const store = lessonsOf(lab);
   return (
     <div class="lessons">
+      <Show when={store.lesson() === undefined && lab.address.lesson()}>
+        {(name) => <p role="alert">There is no lesson “{name()}”.</p>}
+      </Show>
       <Show when={store.lesson()} fallback={<LessonList store={store} />} keyed>
         {(lesson) => <LessonView lab={lab} store={store} lesson={lesson} />}
       </Show>

@@ -6,6 +6,7 @@ import {
   createMemo,
   createRoot,
   createSignal,
+  on,
   untrack,
   type Accessor,
 } from 'solid-js';
@@ -23,7 +24,7 @@ import { createLessonTrainings, type LessonTrainings } from './lessonTrainings';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
 import { startTrack, observe, type Track } from './track';
-import type { Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
+import type { Addressed, Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
 import type { Parameters } from '../../net/protocol.gen';
 
 type Tracks = readonly (Track | undefined)[];
@@ -56,7 +57,7 @@ export interface Lessons {
   startOver(): void;
 }
 
-export type LessonsLab = Session & Trial & Events & Pictures & Layers;
+export type LessonsLab = Addressed & Session & Trial & Events & Pictures & Layers;
 
 function createLessons(lab: LessonsLab): Lessons {
   const [progress, setProgress] = createSignal(storedProgress(LESSONS));
@@ -131,6 +132,14 @@ function createLessons(lab: LessonsLab): Lessons {
     setTracks([]);
   };
 
+  // Also by the browser's Back.
+  createEffect(
+    on(lab.address.lesson, (id) => {
+      leave();
+      setLesson(LESSONS.find((one) => one.id === id));
+    }),
+  );
+
   return {
     progress,
     lesson,
@@ -154,11 +163,12 @@ function createLessons(lab: LessonsLab): Lessons {
       const here = run();
       return !here || allDone(here, track());
     },
-    open(next) {
-      leave();
-      setLesson(next);
+    open: ({ id }) => {
+      lab.address.learn(id);
     },
-    close: leave,
+    close() {
+      lab.address.learn(undefined);
+    },
     go(to) {
       setOwn(undefined);
       setStep(to);
@@ -187,7 +197,6 @@ function createLessons(lab: LessonsLab): Lessons {
       if (kind === 'done' && run() === here) setOwn(JSON.stringify(lab.scene()?.scenario));
     },
     startOver() {
-      leave();
       keep(NO_PROGRESS);
     },
   };

@@ -8,6 +8,11 @@ import type { ProgramStanding } from './programs.gen';
 import type { RobotStanding, TwinStanding } from './robot.gen';
 
 /**
+ * What `/s/NAME/VIEW` shows instead of the laboratory.
+ */
+export type View = "draw" | "train" | "recordings" | "evaluate";
+
+/**
  * See `ServerMessage::Scene`.
  */
 export type SceneMessage = { 
