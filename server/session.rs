@@ -6,6 +6,7 @@
 
 mod branch_point;
 mod error;
+mod facts;
 mod program_link;
 mod robot_link;
 mod stepper;
@@ -29,6 +30,7 @@ use ferry_ur::{Robot, Standing as RobotStanding, Twin, TwinStanding};
 
 pub use branch_point::BranchPoint;
 pub use error::CommandError;
+pub use facts::EndFact;
 
 /// Maximum number of waiting commands.
 const COMMAND_QUEUE: usize = 256;
@@ -50,7 +52,7 @@ pub struct View {
     /// The robot outside of Ferry that the arm mirrors.
     pub twin: Option<TwinStanding>,
     /// Why the session ended, if it has.
-    pub ended: Option<String>,
+    pub ended: Option<EndFact>,
 }
 
 impl Deref for View {

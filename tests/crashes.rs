@@ -80,8 +80,8 @@ async fn a_full_disk_stops_the_recording_visibly_and_nothing_else() {
     browser.send(json!({"type": "set_speed", "factor": 8})).await;
     browser.send(json!({"type": "run"})).await;
     let recording = browser.state("a recording", |m| m["tick"].as_u64() > Some(10)).await;
-    assert_eq!(recording["recording"], "recording");
-    let stopped = |m: &serde_json::Value| m["recording"].as_str().is_some_and(|text| text.starts_with("stopped: "));
+    assert_eq!(recording["recording"]["code"], "on");
+    let stopped = |m: &serde_json::Value| m["recording"]["code"] == "stopped";
     let full = browser.state("the recording stops", stopped).await;
     let later = full["tick"].as_u64().unwrap() + 250;
     let goes_on = browser.state("the session goes on", |m| m["tick"].as_u64() >= Some(later)).await;

@@ -337,7 +337,7 @@ async fn the_robot_stops_when_the_cable_is_damaged() {
             eprintln!("{fault:?}: {speed_rad_s:.2} rad/s, at rest after {moved_s:.3} s, allowed {allowed_s:.3} s");
             // What is on its way, and the age of a state.
             assert!(moved_s <= allowed_s + 5.0 * TICK_S, "{fault:?}: {moved_s:.3} s, allowed {allowed_s:.3} s");
-            let stopped = page.state("it says why", |state| state["twin"]["stopped"].is_string()).await;
+            let stopped = page.state("it says why", |state| state["twin"]["stopped"].is_object()).await;
             assert_eq!(stopped["twin"]["is_driven"], false, "{fault:?}");
         }
         // With the cable whole again nothing moves by itself.
@@ -379,7 +379,8 @@ async fn what_is_not_a_robot_is_said_and_moves_nothing() {
         socket.read_exact(&mut asked).await.unwrap();
         assert_eq!(asked, [0, 5, b'V', 0, 2]);
         drop(socket);
-        let told = page.until(why, |m| m["twin"]["trouble"].as_str().is_some_and(|told| told.contains(why))).await;
+        let told =
+            page.until(why, |m| m["twin"]["trouble"]["text"].as_str().is_some_and(|told| told.contains(why))).await;
         assert_eq!(told["running"], false);
     }
     page.send(json!({"type": "drive_robot", "press": 1})).await;

@@ -9,7 +9,7 @@ use ferry_core::plant::{BeadMotion, PositionerKind};
 use ferry_core::robot::Joints;
 use ferry_core::scenario::{ControllerName, Disturbance, Parameters, Scenario};
 use ferry_core::session::{Command, Kept, Opening};
-use ferry_core::trial::{Catalog, Input, InputLog, LogError, Replayed, replay};
+use ferry_core::trial::{Catalog, Input, InputLog, LogError, RecordingFact, Replayed, replay};
 use ferry_recording::{Archive, Options, Recorder, Retention};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -171,7 +171,7 @@ fn parts_have_no_gap_and_each_replays_alone() {
         obey(Command::Step(20));
         std::thread::sleep(Duration::from_millis(30));
     }
-    assert_eq!(session.watch().borrow().recording, "recording");
+    assert_eq!(session.watch().borrow().recording, RecordingFact::On);
     drop(session);
     let logs = logs(folder.path());
     assert!(logs.len() > 2, "{} parts", logs.len());
@@ -207,7 +207,7 @@ fn the_largest_size_of_an_archive_holds_while_a_session_is_recorded() {
         std::thread::sleep(Duration::from_millis(50));
         most = most.max(bytes_in(folder.path()));
         parts.extend(archive.list().unwrap().into_iter().map(|listed| listed.id));
-        assert_eq!(session.watch().borrow().recording, "recording");
+        assert_eq!(session.watch().borrow().recording, RecordingFact::On);
     }
     drop(session);
     // What is written between two checks.
@@ -227,9 +227,9 @@ fn without_room_a_recording_does_not_begin_and_says_why() {
 }
 
 /// Until a state that was published says so.
-fn wait_for(session: &SessionHandle, what: &str) {
+fn wait_for(session: &SessionHandle, what: impl Fn(&RecordingFact) -> bool) {
     let began = std::time::Instant::now();
-    while !session.watch().borrow().recording.starts_with(what) {
+    while !what(&session.watch().borrow().recording) {
         assert!(began.elapsed() < Duration::from_secs(30), "{:?}", session.watch().borrow().recording);
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -249,17 +249,17 @@ fn a_recording_whose_folder_is_gone_says_so_and_goes_on_when_it_is_back() {
         let runtime = clocked();
         let obey = |command| runtime.block_on(session.send(command)).unwrap();
         obey(if runs { Command::Run } else { Command::Step(100) });
-        wait_for(&session, "recording");
+        wait_for(&session, |told| *told == RecordingFact::On);
         let away = data.path().join("away");
         std::fs::rename(&folder, &away).unwrap();
         if is_file {
             std::fs::write(&folder, "not a folder").unwrap();
         }
-        wait_for(&session, "interrupted: ");
-        let told = session.watch().borrow().recording.clone();
+        wait_for(&session, |told| matches!(told, RecordingFact::Interrupted { .. }));
+        let told = session.watch().borrow().recording.to_string();
         assert!(told.contains("was removed; waiting for its folder"), "{told}");
         std::thread::sleep(Duration::from_millis(1500));
-        wait_for(&session, "interrupted: ");
+        wait_for(&session, |told| matches!(told, RecordingFact::Interrupted { .. }));
         if is_file {
             std::fs::remove_file(&folder).unwrap();
         }
@@ -269,7 +269,7 @@ fn a_recording_whose_folder_is_gone_says_so_and_goes_on_when_it_is_back() {
             std::thread::sleep(Duration::from_millis(1500));
             obey(Command::Step(100));
         }
-        wait_for(&session, "recording");
+        wait_for(&session, |told| *told == RecordingFact::On);
         obey(Command::Step(200));
         let last = session.watch().borrow().moment.tick;
         drop(session);

@@ -16,6 +16,13 @@ pub struct Told<T> {
     pub text: String,
 }
 
+impl<T: Display> From<T> for Told<T> {
+    /// The fact's own sentence.
+    fn from(fact: T) -> Self {
+        Self { text: fact.to_string(), fact }
+    }
+}
+
 impl<T> Told<T> {
     /// The fact of a domain type, with its sentence.
     pub fn of<D: Display + ?Sized>(domain: &D) -> Self

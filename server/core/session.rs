@@ -34,7 +34,8 @@ use crate::image::{CameraError, ImageSource};
 use crate::plant::PositionerKind;
 use crate::scenario::{Parameters, Scenario};
 use crate::trial::{
-    Arena, Case, Catalog, ControlQuery, Event, Input, LogError, Moment, Origin, Sight, Sink, Timed, Trial, TrialError,
+    Arena, Case, Catalog, ControlQuery, Event, Input, LogError, Moment, Origin, RecordingFact, Sight, Sink, Timed,
+    Trial, TrialError,
 };
 
 pub use asking::PROGRAM_ANSWER_WITHIN;
@@ -186,7 +187,7 @@ pub struct View {
     /// The attempt at the challenge that is being played.
     pub attempt: Option<Standing>,
     /// `recording`, or why nothing is recorded.
-    pub recording: String,
+    pub recording: RecordingFact,
 }
 
 /// How a tick selects a moment.
@@ -327,8 +328,8 @@ impl<E: ImageSource> Session<E> {
         self.pace.factor()
     }
 
-    /// `recording`, or why nothing is recorded.
-    pub fn recording(&self) -> String {
+    /// Whether everything is recorded, or why not.
+    pub fn recording(&self) -> RecordingFact {
         self.sink.status()
     }
 

@@ -50,7 +50,7 @@ pub use decide::Question;
 pub use disturb::far_point;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use event::{Event, EventKind, Happening, Resumption};
-pub use facts::{PhaseFact, StopCode};
+pub use facts::{PhaseFact, RecordingFact, StopCode};
 pub use input::Input;
 pub use input_error::{InputError, REASON_BYTES_MOST};
 pub use log::{InputLog, LogError, LogWriter};

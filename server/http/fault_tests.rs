@@ -23,7 +23,7 @@ async fn reason_of_end(session: &SessionHandle) -> String {
     let mut views = session.watch();
     let ended = views.wait_for(|view| view.ended.is_some());
     let view = tokio::time::timeout(Duration::from_secs(20), ended).await.expect("the session ends").unwrap();
-    view.ended.clone().unwrap()
+    view.ended.clone().unwrap().to_string()
 }
 
 async fn wait_for_a_second(session: &SessionHandle) {

@@ -13,6 +13,7 @@ use prometheus_client::registry::Registry;
 
 use super::problem::Problem;
 use super::{CAMERA_STREAMS, Server};
+use ferry_core::trial::RecordingFact;
 
 type Labels = Vec<(&'static str, String)>;
 type Floats = Gauge<f64, std::sync::atomic::AtomicU64>;
@@ -112,7 +113,7 @@ fn registry(server: &Server) -> Registry {
             hub.viewers() as f64,
             f64::from(u8::from(hub.is_parked())),
             f64::from(u8::from(view.ended.is_some())),
-            f64::from(u8::from(view.recording.starts_with("recording"))),
+            f64::from(u8::from(matches!(view.recording, RecordingFact::On | RecordingFact::Slow { .. }))),
         ];
         let labels: Labels = vec![("session", hub.id.clone())];
         for (family, value) in floats.iter().zip(values) {

@@ -9,7 +9,7 @@ use super::{
     AttemptStanding, CatalogMessage, ComparisonMessage, DoneMessage, EventMessage, OverlayMessage, ProgramStanding,
     RefusedMessage, SeenMessage, SessionError, TrainingPointsMessage,
 };
-use crate::session::View;
+use crate::session::{EndFact, View};
 use ferry_core::control::facts::{RefusalFact, TroubleFact};
 use ferry_core::control::switching::Reason;
 use ferry_core::facts::Told;
@@ -19,7 +19,7 @@ use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::{ControllerName, Parameters, Scenario};
 use ferry_core::schema::{Numbers2, Numbers3, Numbers6};
 use ferry_core::session::{KeptRunSummary, OpenedCase, Scenery};
-use ferry_core::trial::PhaseFact;
+use ferry_core::trial::{PhaseFact, RecordingFact};
 use ferry_ur::{Standing as RobotStanding, TwinStanding};
 
 /// Directions in which the scene gives the capture distances.
@@ -303,10 +303,10 @@ pub struct StateMessage {
     pub twin: Option<TwinStanding>,
     /// Hash of the plant's state, in hex.
     pub world_hash: String,
-    /// `recording`, or why nothing is recorded.
-    pub recording: String,
+    /// Whether everything is recorded, or why not.
+    pub recording: Told<RecordingFact>,
     /// Why the session ended, if it has.
-    pub ended: Option<String>,
+    pub ended: Option<Told<EndFact>>,
 }
 
 impl From<&Scenery> for SceneMessage {
@@ -387,8 +387,8 @@ impl From<&View> for StateMessage {
             robot: view.robot.clone(),
             twin: view.twin.clone(),
             world_hash: format!("{:016x}", view.world_hash),
-            recording: view.recording.clone(),
-            ended: view.ended.clone(),
+            recording: view.recording.clone().into(),
+            ended: view.ended.clone().map(Told::from),
         }
     }
 }

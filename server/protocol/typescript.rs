@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ts_rs::{Config, TS};
 
 use super::*;
+use crate::session::EndFact;
 use ferry_core::challenge::{Attempt, Difficulty, Loss, Mishap, Score};
 use ferry_core::control::CONTROL_PERIOD_S;
 use ferry_core::control::facts::{RefusalFact, TroubleFact};
@@ -30,13 +31,13 @@ use ferry_core::scenario::{
 };
 use ferry_core::session::SPEED_MAX;
 use ferry_core::session::VoidFact;
-use ferry_core::trial::{EventKind, GOAL_RADIUS_M, Happening, PhaseFact, Resumption, StopCode};
+use ferry_core::trial::{EventKind, GOAL_RADIUS_M, Happening, PhaseFact, RecordingFact, Resumption, StopCode};
 use ferry_lab::evaluate::{Comparison, EvaluationQuery, PairedMean, PaperRow, Row, Setting, Variation};
 use ferry_lab::learn::{Ending, FusionName, RecipeName, Settings, Trail, TrainingQuery};
 use ferry_lab::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
-use ferry_ur::controller::{Connected, Standing as RobotStanding};
+use ferry_ur::controller::{Connected, Standing as RobotStanding, Stop as ProtectiveStop};
 use ferry_ur::refusals::Refused;
-use ferry_ur::twin::TwinStanding;
+use ferry_ur::twin::{ApartFact, DoubtFact, DriveFact, TwinStanding, TwinTrouble};
 
 const HEADER: &str =
     "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n\n";
@@ -143,7 +144,9 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 Reason,
                 Happening,
                 Resumption,
-                RefusalCode
+                RefusalCode,
+                RecordingFact,
+                EndFact
             ],
         ),
         ("session", declared![View, SceneMessage, KeptRun, CaseSummary, StateMessage]),
@@ -241,7 +244,20 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
         ),
         ("lumen", declared![WallRing, Lumen]),
         ("programs", declared![ProgramStanding, Programs]),
-        ("robot", declared![Connected, Refused, RobotStanding, TwinStanding]),
+        (
+            "robot",
+            declared![
+                Connected,
+                ProtectiveStop,
+                Refused,
+                RobotStanding,
+                ApartFact,
+                DoubtFact,
+                DriveFact,
+                TwinTrouble,
+                TwinStanding
+            ],
+        ),
         ("policies", declared![PolicyOrigin, PolicySummary, Policies, PolicyName]),
     ]
 }

@@ -25,7 +25,8 @@ use std::time::Duration;
 use ferry_core::geometry::Point2;
 use ferry_core::scenario::Scenario;
 use ferry_core::trial::{
-    Arena, Beginning, Event, LogError, LoggedBeginning, LoggedTick, Moment, Sight, Sink, TickRecord, Trial,
+    Arena, Beginning, Event, LogError, LoggedBeginning, LoggedTick, Moment, RecordingFact, Sight, Sink, TickRecord,
+    Trial,
 };
 
 pub use about::Content;
@@ -150,9 +151,9 @@ struct Sample {
 #[derive(Default)]
 struct Shared {
     /// Why recording has stopped; set once.
-    stopped: OnceLock<String>,
+    stopped: OnceLock<RecordingFact>,
     /// Why nothing is recorded at present.
-    interrupted: Mutex<Option<String>>,
+    interrupted: Mutex<Option<RecordingFact>>,
     /// The part is old enough: the next one should begin.
     part_is_over: AtomicBool,
     /// Number of sights in the queue.
@@ -264,14 +265,14 @@ impl Sink for Recorder {
         offers || self.shared.part_is_over.swap(false, Ordering::Relaxed)
     }
 
-    fn status(&self) -> String {
+    fn status(&self) -> RecordingFact {
         if let Some(reason) = self.shared.interruption() {
             return reason;
         }
         match (self.shared.stopped.get(), self.lost_ticks) {
             (Some(reason), _) => reason.clone(),
-            (None, 0) => "recording".to_owned(),
-            (None, lost) => format!("recording, {lost} ticks lost: the disk is too slow"),
+            (None, 0) => RecordingFact::On,
+            (None, lost_ticks) => RecordingFact::Slow { lost_ticks },
         }
     }
 
@@ -279,7 +280,7 @@ impl Sink for Recorder {
         self.close();
         match (self.shared.stopped.get(), self.lost_ticks) {
             (None, 0) => Ok(()),
-            _ => Err(self.status()),
+            _ => Err(self.status().to_string()),
         }
     }
 }
@@ -347,7 +348,7 @@ fn attempt(keeper: &mut Keeper, shared: &Shared, act: impl FnOnce(&mut Keeper) -
         Err(error @ RecordingError::Gone { .. }) if keeper.waits_for_folder() => {
             tracing::warn!(%error, "recording interrupted");
             keeper.interrupt();
-            shared.interrupt(Some(format!("interrupted: {error}; waiting for its folder")));
+            shared.interrupt(Some(RecordingFact::Interrupted { detail: error.to_string() }));
         }
         Err(error) => shared.stop(&error),
     }
@@ -359,14 +360,14 @@ impl Shared {
         tracing::error!(%error, "recording stopped");
         self.interrupt(None);
         // Set once.
-        let _ = self.stopped.set(format!("stopped: {error}"));
+        let _ = self.stopped.set(RecordingFact::Stopped { detail: error.to_string() });
     }
 
-    fn interrupt(&self, reason: Option<String>) {
+    fn interrupt(&self, reason: Option<RecordingFact>) {
         *self.interrupted.lock().unwrap_or_else(PoisonError::into_inner) = reason;
     }
 
-    fn interruption(&self) -> Option<String> {
+    fn interruption(&self) -> Option<RecordingFact> {
         self.interrupted.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }

@@ -11,7 +11,7 @@ use tokio::sync::{broadcast, watch};
 use super::program_link::ProgramLink;
 use super::robot_link::RobotLink;
 use super::stepper::Stepper;
-use super::{BranchPoint, CommandError, Request, View};
+use super::{BranchPoint, CommandError, EndFact, Request, View};
 use ferry_core::image::ImageSource;
 use ferry_core::panics;
 use ferry_core::session::{Command, Message, Session};
@@ -89,10 +89,10 @@ impl<E: ImageSource> SessionThread<E> {
         self.program.end(&self.name);
         let reason = match outcome {
             Ok(Ok(())) => return,
-            Ok(Err(error)) => error.to_string(),
-            Err(panic) => panics::message(&*panic),
+            Ok(Err(error)) => EndFact::TrialFailed { detail: error.to_string() },
+            Err(panic) => EndFact::Crashed { detail: panics::message(&*panic) },
         };
-        tracing::error!(reason, "session ended");
+        tracing::error!(%reason, "session ended");
         let mut last = View::clone(&self.view.borrow());
         last.number += 1;
         last.session.running = false;

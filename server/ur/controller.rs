@@ -1,5 +1,6 @@
 //! The controller's memory: who is connected, registers, the program that runs, and the protective stop.
 
+mod facts;
 #[cfg(test)]
 mod tests;
 
@@ -19,7 +20,9 @@ use super::news::{Item, News};
 use super::refusals::{Refusals, Refused};
 use super::registers::Registers;
 use super::script::{self, Line, ScriptError};
+pub use facts::Stop;
 use ferry_core::control::limits::Limits;
+use ferry_core::facts::Told;
 use ferry_core::robot::{Joints, ur5::SERVO_PERIOD_S};
 
 /// Values of `safety_mode`.
@@ -53,7 +56,7 @@ pub struct Standing {
     /// URScript's name of the motion, while there is one.
     pub command: Option<String>,
     /// Why the arm is in a protective stop.
-    pub stop: Option<String>,
+    pub stop: Option<Told<Stop>>,
     /// Newest last, at most 20.
     pub refused: Vec<Refused>,
 }
@@ -66,7 +69,7 @@ pub enum LoadError {
     #[error("the session has a planar stage and no arm")]
     NoArm,
     #[error("the arm is in a protective stop: {0}")]
-    Stopped(String),
+    Stopped(Stop),
 }
 
 #[derive(Clone, Debug)]
@@ -115,7 +118,7 @@ pub struct Controller {
     running: Option<Running>,
     mover: Mover,
     command: Option<&'static str>,
-    stop: Option<String>,
+    stop: Option<Stop>,
     refusals: Refusals,
     news: News,
     /// The last tick that was asked for, and how long no client has written.
@@ -154,7 +157,7 @@ impl Controller {
             clients: self.clients.clone(),
             program: self.running.as_ref().map(|running| running.name.clone()),
             command: self.command.filter(|_| self.mover.is_busy()).map(str::to_owned),
-            stop: self.stop.clone(),
+            stop: self.stop.clone().map(Told::from),
             refused: self.refusals.since(0).cloned().collect(),
         }
     }
@@ -289,16 +292,17 @@ impl Controller {
     }
 
     /// A limit is violated: the arm stands still at once.
-    pub fn stop_at_once(&mut self, what: &str, why: &str) {
-        self.note(what, why);
-        self.end(why);
+    fn stop_at_once(&mut self, what: &str, why: Stop) {
+        let text = why.to_string();
+        self.note(what, &text);
+        self.end(&text);
         self.mover.clear();
-        self.stop = Some(why.to_owned());
+        self.stop = Some(why);
     }
 
     /// What the program wanted was refused.
     pub fn violate(&mut self, why: &str) {
-        self.stop_at_once(self.command.unwrap_or("motion"), why);
+        self.stop_at_once(self.command.unwrap_or("motion"), Stop::refused(why));
     }
 
     /// Leaves the protective stop; false if there was none.
@@ -327,7 +331,7 @@ impl Controller {
         match self.mover.next(here_rad, limits.tool_speed_m_s(), self.inputs.fraction()) {
             Ok(joints) => joints,
             Err(error) => {
-                self.stop_at_once(self.command.unwrap_or("motion"), &error.to_string());
+                self.stop_at_once(self.command.unwrap_or("motion"), Stop::refused(error));
                 None
             }
         }
@@ -374,7 +378,7 @@ impl Controller {
             Next::Goes => {}
             Next::Ends => self.end("as asked"),
             Next::Refused { what, why } => self.refuse(&what, &why),
-            Next::ProtectiveStop => self.stop_at_once("protective_stop", "a program has asked for it"),
+            Next::ProtectiveStop => self.stop_at_once("protective_stop", Stop::Requested),
         }
     }
 

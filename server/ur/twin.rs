@@ -2,6 +2,7 @@
 //! controllers. Shared by the session, the page's connections and the robot's. Nothing here reads a clock.
 
 mod doubt;
+mod facts;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -19,6 +20,8 @@ use super::drive_script::OVER;
 use super::news::{Item, News};
 use super::peer::Report;
 use doubt::{Apart, Doubt};
+pub use facts::{ApartFact, DoubtFact, DriveFact, TwinTrouble};
+use ferry_core::facts::Told;
 use ferry_core::plant::PositionerKind;
 use ferry_core::robot::Joints;
 use ferry_core::trial::{Input, Trial};
@@ -96,11 +99,11 @@ pub struct TwinStanding {
     /// Whether Ferry may move it (`--enable-motion`).
     pub allows_motion: bool,
     /// Why it is not connected; `null` if it is.
-    pub trouble: Option<String>,
+    pub trouble: Option<Told<TwinTrouble>>,
     /// What its dashboard says that it is; `null` if it does not say.
     pub model: Option<String>,
     /// Why places on the table may be others than Ferry's; `null` if there is no reason to think so.
-    pub doubt: Option<String>,
+    pub doubt: Option<Told<DoubtFact>>,
     /// As it reports it: 7 while it runs.
     pub robot_mode: i32,
     /// As it reports it: 1 normal, 2 reduced, 3 protective stop.
@@ -110,7 +113,7 @@ pub struct TwinStanding {
     /// Whether it follows Ferry's controllers.
     pub is_driven: bool,
     /// Why it does not follow, or no longer.
-    pub stopped: Option<String>,
+    pub stopped: Option<Told<DriveFact>>,
 }
 
 #[derive(Debug)]
@@ -124,7 +127,7 @@ pub struct Twin {
 impl Twin {
     pub fn new(address: IpAddr, allows_motion: bool) -> Self {
         let state = State {
-            trouble: Some("not connected yet".to_owned()),
+            trouble: Some(TwinTrouble::NotYet),
             model: None,
             heard: None,
             is_proven: false,
@@ -163,14 +166,14 @@ impl Twin {
         TwinStanding {
             address: self.address,
             allows_motion: self.allows_motion,
-            trouble: state.trouble.clone(),
+            trouble: state.trouble.clone().map(Told::from),
             model: state.model.clone(),
-            doubt: state.doubt.map(|doubt| doubt.to_string()),
+            doubt: state.doubt.as_ref().map(Told::of),
             robot_mode: report.robot_mode,
             safety_mode: report.safety_mode,
             is_held: state.drive != Drive::Rests,
             is_driven: matches!(state.drive, Drive::Follows { .. }),
-            stopped: state.stopped.as_ref().map(ToString::to_string),
+            stopped: state.stopped.as_ref().map(Told::of),
         }
     }
 
@@ -182,7 +185,7 @@ impl Twin {
     /// The connection exists, or why it does not.
     pub fn connected(&self, outcome: Result<(), String>) {
         let mut state = self.state();
-        let trouble = outcome.err();
+        let trouble = outcome.err().map(|detail| TwinTrouble::Failed { detail });
         match &trouble {
             _ if trouble == state.trouble => return,
             None => state.news.tell(format!("{} is connected", self.address)),

@@ -7,7 +7,7 @@ use std::time::Instant;
 use criterion::Criterion;
 use ferry_camera::{AdapterChoice, Camera, Gpu};
 use ferry_core::scenario::ControllerName;
-use ferry_core::trial::{Arena, Beginning, Nowhere, Sink, Source, Trial};
+use ferry_core::trial::{Arena, Beginning, Nowhere, RecordingFact, Sink, Source, Trial};
 use ferry_recording::{Archive, Options, Recorder, Retention};
 
 const TICKS: u64 = 2500;
@@ -36,7 +36,7 @@ pub fn benches(_: &mut Criterion) {
             let without_s = run_s(&arena, &mut camera, &mut Nowhere::default());
             let mut recorder = Recorder::in_archive(&archive, "bench", Options::LIVE).unwrap();
             let with_s = run_s(&arena, &mut camera, &mut recorder);
-            assert_eq!(recorder.status(), "recording");
+            assert_eq!(recorder.status(), RecordingFact::On);
             with_s / without_s
         })
         .collect();

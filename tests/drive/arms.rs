@@ -35,17 +35,17 @@ async fn ferry_moves_no_arm_but_its_own() {
         let (_robot, mut robot) = robot_of(&address, "open", REST, &data.path().join("robot"), &model).await;
         let (_server, mut page) = driver(&address, &["--enable-motion"], &data.path().join("twin")).await;
         task(&mut page, "open", 1, Some([0.2, -0.45]), [0.0, -0.3]).await;
-        let known = |state: &Value| state["twin"]["model"] == name && state["twin"]["doubt"].is_string();
+        let known = |state: &Value| state["twin"]["model"] == name && state["twin"]["doubt"]["text"].is_string();
         let known = page.state("its name, and what is odd", known).await;
-        let doubt = known["twin"]["doubt"].as_str().unwrap();
+        let doubt = known["twin"]["doubt"]["text"].as_str().unwrap();
         assert!(doubt.contains("TCP") && doubt.matches("p[").count() == 2, "{name}: {doubt}");
         let before = joints(&present(&mut robot).await);
         if name.ends_with('e') {
             let refused = hold_until(&mut page, "it is refused", Duration::from_secs(30), |m| {
-                m["twin"]["stopped"].as_str().is_some_and(|why| why.contains("not a UR5"))
+                m["twin"]["stopped"]["text"].as_str().is_some_and(|why| why.contains("not a UR5"))
             });
             let refused = refused.await;
-            assert_eq!(refused["twin"]["stopped"].as_str().unwrap().matches("p[").count(), 2, "{name}");
+            assert_eq!(refused["twin"]["stopped"]["text"].as_str().unwrap().matches("p[").count(), 2, "{name}");
             // Ferry's program gives up after a second.
             robot.state("it is over", |state| state["robot"]["program"].is_null()).await;
             assert_eq!(apart(&joints(&present(&mut robot).await), &before), 0.0, "{name}");

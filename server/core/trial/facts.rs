@@ -1,4 +1,4 @@
-//! Phases in the form of the wire (see [`crate::facts`]).
+//! Phases and recordings in the form of the wire (see [`crate::facts`]).
 
 use serde::{Deserialize, Serialize};
 
@@ -63,4 +63,30 @@ impl From<&Phase> for PhaseFact {
             Phase::Stopped(StopReason::WalledOff) => stopped(StopCode::WalledOff, None),
         }
     }
+}
+
+/// Whether a trial is recorded. `detail` is what the system says, in English.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[cfg_attr(feature = "schema", derive(ts_rs::TS, utoipa::ToSchema))]
+#[serde(tag = "code", rename_all = "snake_case")]
+pub enum RecordingFact {
+    #[error("recording")]
+    On,
+    /// The disk is too slow: the recording has gaps.
+    #[error("recording, {lost_ticks} ticks lost: the disk is too slow")]
+    Slow {
+        #[cfg_attr(feature = "schema", ts(type = "number"))]
+        lost_ticks: u64,
+    },
+    /// It goes on when its folder is back.
+    #[error("interrupted: {detail}; waiting for its folder")]
+    Interrupted { detail: String },
+    #[error("stopped: {detail}")]
+    Stopped { detail: String },
+    /// It could not begin.
+    #[error("not recording: {detail}")]
+    Refused { detail: String },
+    /// It was not asked for.
+    #[error("not recording")]
+    Off,
 }

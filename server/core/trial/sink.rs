@@ -1,6 +1,6 @@
 //! Destination of a trial's ticks: a recording, or none.
 
-use super::{Event, TickRecord, Trial};
+use super::{Event, RecordingFact, TickRecord, Trial};
 
 /// Why a trial begins for a sink.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,8 +22,8 @@ pub trait Sink: Send {
     fn note(&mut self, event: &Event);
     /// Whether the sink needs the trial's current state before more ticks; called after every tick.
     fn wants_beginning(&mut self) -> bool;
-    /// `recording`, or why nothing is recorded.
-    fn status(&self) -> String;
+    /// Whether everything is recorded, or why not.
+    fn status(&self) -> RecordingFact;
     /// Writes everything that is pending and closes the sink.
     ///
     /// # Errors
@@ -47,9 +47,11 @@ impl Sink for Nowhere {
         false
     }
 
-    fn status(&self) -> String {
-        let colon = if self.reason.is_empty() { "" } else { ": " };
-        format!("not recording{colon}{}", self.reason)
+    fn status(&self) -> RecordingFact {
+        match self.reason.as_str() {
+            "" => RecordingFact::Off,
+            detail => RecordingFact::Refused { detail: detail.to_owned() },
+        }
     }
 
     fn finish(self: Box<Self>) -> Result<(), String> {

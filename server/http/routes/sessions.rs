@@ -17,8 +17,10 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::http::sessions::MAIN;
 use crate::protocol::StateMessage;
-use crate::session::View;
+use crate::session::{EndFact, View};
+use ferry_core::facts::Told;
 use ferry_core::scenario::{ControllerName, Scenario};
+use ferry_core::trial::RecordingFact;
 
 /// Summary of a session.
 #[derive(Serialize, ToSchema)]
@@ -31,14 +33,14 @@ pub struct SessionSummary {
     tick: u64,
     /// Whether the session is running.
     running: bool,
-    /// `recording`, or why nothing is recorded.
-    recording: String,
+    /// Whether everything is recorded, or why not.
+    recording: Told<RecordingFact>,
     /// Number of connected browsers.
     viewers: usize,
     /// Paused because it had no viewers for long.
     parked: bool,
     /// Why it ended, if it has.
-    ended: Option<String>,
+    ended: Option<Told<EndFact>>,
 }
 
 impl SessionSummary {
@@ -49,10 +51,10 @@ impl SessionSummary {
             controller: view.moment.controller,
             tick: view.moment.tick,
             running: view.running,
-            recording: view.recording.clone(),
+            recording: view.recording.clone().into(),
             viewers: hub.viewers(),
             parked: hub.is_parked(),
-            ended: view.ended.clone(),
+            ended: view.ended.clone().map(Told::from),
         }
     }
 }

@@ -134,7 +134,7 @@ fn a_violated_limit_stops_the_arm_until_it_is_unlocked() {
     assert!(bench.robot.is_stopped() && !bench.robot.is_running() && bench.robot.safety_mode() == PROTECTIVE_STOP);
     assert_eq!((bench.run(10), bench.last_refusal().as_str()), (0.0, "speedl: too low"));
     let refused = bench.robot.load(CONTROL_SCRIPT, true);
-    assert_eq!(refused, Err(LoadError::Stopped("too low".to_owned())));
+    assert_eq!(refused, Err(LoadError::Stopped(Stop::refused("too low"))));
     assert!(bench.robot.unlock() && !bench.robot.unlock());
     assert_eq!(bench.robot.load(CONTROL_SCRIPT, true), Ok(()));
 }

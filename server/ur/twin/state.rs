@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::doubt::{Apart, Doubt};
+use super::facts::TwinTrouble;
 use super::{DriveError, NORMAL, PLAYING, REDUCED, RUNNING, SILENCE, START_WITHIN};
 use crate::drive_script::OVER;
 use crate::news::News;
@@ -32,7 +33,7 @@ pub(super) enum Drive {
 #[derive(Debug)]
 pub(super) struct State {
     /// Why there is no connection.
-    pub(super) trouble: Option<String>,
+    pub(super) trouble: Option<TwinTrouble>,
     pub(super) model: Option<String>,
     pub(super) heard: Option<(Report, Instant)>,
     /// Ferry's program on the robot has told where the flange is, and that is where a UR5's would be.

@@ -88,7 +88,7 @@ impl Bench {
     fn stopped(&self) -> String {
         let standing = self.twin.standing();
         assert!(!standing.is_driven && !standing.is_held, "{standing:?}");
-        standing.stopped.unwrap_or_default()
+        standing.stopped.map(|stopped| stopped.text).unwrap_or_default()
     }
 }
 
@@ -280,11 +280,11 @@ fn an_arm_that_becomes_another_is_stopped_and_a_doubtful_one_is_told_of() {
     let mut bench = Bench::new(true);
     bench.arm = arm("0.089159 → 0.099159");
     bench.tick();
-    let doubt = bench.twin.standing().doubt.unwrap();
+    let doubt = bench.twin.standing().doubt.unwrap().text;
     assert!(doubt.contains("either its TCP is not Ferry's") && doubt.contains("10.0 mm"), "{doubt}");
     bench.begin();
     assert!(bench.go_on().period > 0);
-    let doubt = bench.twin.standing().doubt.unwrap();
+    let doubt = bench.twin.standing().doubt.unwrap().text;
     assert!(doubt.contains("calibration") && doubt.contains("10.0 mm"), "{doubt}");
     let told = bench.twin.take_news().iter().filter(|item| item.text.contains("10.0 mm")).count();
     assert_eq!(told, 2, "once each");
@@ -293,7 +293,7 @@ fn an_arm_that_becomes_another_is_stopped_and_a_doubtful_one_is_told_of() {
     let mut bench = Bench::new(true);
     bench.arm = arm("0.18 → 0");
     bench.tick();
-    assert!(bench.twin.standing().doubt.unwrap().contains("180.0 mm"));
+    assert!(bench.twin.standing().doubt.unwrap().text.contains("180.0 mm"));
     bench.begin();
     assert!(bench.go_on().period > 0);
     assert_eq!(bench.twin.standing().doubt, None);

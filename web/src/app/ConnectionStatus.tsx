@@ -5,6 +5,7 @@ import { loggedOut } from '../net/access';
 import type { ConnectionState } from '../lab/model';
 import { MAIN } from '../net/session';
 import type { Session } from '../lab/slices';
+import { endWords } from '../words/facts';
 import './ConnectionStatus.css';
 
 function connectionText(connection: ConnectionState): string {
@@ -51,6 +52,10 @@ export function ConnectionStatus(props: { lab: Session }): JSX.Element {
   const isNamed = lab.session !== MAIN;
   if (isNamed) nameTab(lab.session);
   const hasEnded = (): boolean => lab.ended() !== undefined;
+  const why = (): string | undefined => {
+    const ended = lab.ended();
+    return ended && endWords(ended);
+  };
   return (
     <>
       <div class="whose">
@@ -64,7 +69,7 @@ export function ConnectionStatus(props: { lab: Session }): JSX.Element {
           class="link"
           data-link={hasEnded() ? 'ended' : lab.connection().kind}
           data-testid="connection"
-          title={lab.ended()}
+          title={why()}
         >
           {hasEnded() ? 'session ended' : connectionText(lab.connection())}
         </span>

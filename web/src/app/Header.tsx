@@ -9,8 +9,8 @@ import { isLedFromOutside } from '../lab/outside';
 import type { Lab, Notices, Session } from '../lab/slices';
 import { VIEWS, type View } from '../lab/address';
 import { takeControl } from '../lab/takeControl';
-import type { PhaseFact } from '../net/protocol.gen';
-import { phaseName, phaseWords } from '../words/facts';
+import type { PhaseFact, RecordingFact } from '../net/protocol.gen';
+import { phaseName, phaseWords, recordingWords } from '../words/facts';
 import { TERMS } from '../lab/terms';
 import './Header.css';
 
@@ -64,10 +64,8 @@ interface HeaderProps {
 }
 
 /** Whether everything is recorded. The title has the whole status. */
-function recordingState(status: string): 'on' | 'gaps' | 'off' {
-  if (status === 'recording') return 'on';
-  return status.startsWith('recording') ? 'gaps' : 'off';
-}
+const recordingState = ({ code }: RecordingFact): 'on' | 'gaps' | 'off' =>
+  code === 'on' ? 'on' : code === 'slow' ? 'gaps' : 'off';
 
 export function Header(props: HeaderProps): JSX.Element {
   const { lab } = props;
@@ -108,11 +106,11 @@ export function Header(props: HeaderProps): JSX.Element {
               class="recording"
               data-recording={recordingState(state().recording)}
               data-testid="recording"
-              title={`${state().recording}; rendered by ${lab.hello()?.adapter ?? 'an unknown adapter'}`}
+              title={`${recordingWords(state().recording)}; rendered by ${lab.hello()?.adapter ?? 'an unknown adapter'}`}
             >
               rec
               <Show when={recordingState(state().recording) !== 'on'}>
-                <span class="visually-hidden">: {state().recording}</span>
+                <span class="visually-hidden">: {recordingWords(state().recording)}</span>
               </Show>
             </span>
           )}

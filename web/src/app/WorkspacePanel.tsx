@@ -23,6 +23,7 @@ import { WorkspaceHead } from './WorkspaceHead';
 import { WorkspaceHint } from './WorkspaceHint';
 import { insidePolygon } from '../lab/geometry';
 import type { Lab } from '../lab/slices';
+import { endWords } from '../words/facts';
 import './WorkspacePanel.css';
 
 const HELP_ID = 'workspace-help';
@@ -66,7 +67,7 @@ export function WorkspacePanel(props: {
   const stale = (): string | undefined => {
     const ended = lab.ended();
     if (ended !== undefined) {
-      return `The session has ended: ${ended}. Reload the page to restart it.`;
+      return `${endWords(ended)} Reload the page to restart it.`;
     }
     return lab.connection().kind === 'live'
       ? undefined

@@ -129,7 +129,7 @@ function withConnection(model: Model, connection: ConnectionState): Model {
   const next = { ...model, connection };
   if (connection.kind === 'lost' && model.connection.kind === 'live') {
     // An ended session closes the connection, and the page does not reconnect.
-    if (typeof model.state?.ended === 'string') return next;
+    if (model.state?.ended) return next;
     return withLine(next, 'connection', 'Connection lost. Trying again.', undefined);
   }
   if (connection.kind === 'live' && model.connection.kind === 'lost') {

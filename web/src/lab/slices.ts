@@ -2,7 +2,7 @@
 
 import type { Accessor } from 'solid-js';
 import type { Picture } from '../net/connection';
-import type { ClientMessage, EventMessage, Parameters } from '../net/protocol.gen';
+import type { ClientMessage, EndFact, EventMessage, Parameters } from '../net/protocol.gen';
 import type { Address } from './address';
 import type { Answer, Streamed } from './commands';
 import type { Catalog } from './catalog';
@@ -26,7 +26,7 @@ export interface Session {
   readonly connection: Accessor<Model['connection']>;
   readonly hello: Accessor<Model['hello']>;
   /** Why the session ended, if it has. */
-  readonly ended: Accessor<string | undefined>;
+  readonly ended: Accessor<EndFact | undefined>;
   /** Connected as the operator of a session that has not ended. */
   readonly canOperate: Accessor<boolean>;
   /** Whether the connection is new and the control that this page had before comes back. */

@@ -52,7 +52,7 @@ export function stateAt(tick: number, change: Partial<StateMessage> = {}): State
     robot: null,
     twin: null,
     world_hash: '',
-    recording: '',
+    recording: { code: 'on', text: 'recording' },
     ended: null,
     ...change,
   };

@@ -1,8 +1,10 @@
 // Phases, reasons, troubles and refusals of a trial as words. Pure.
 
 import type {
+  EndFact,
   PhaseFact,
   Reason,
+  RecordingFact,
   RefusalFact,
   StopCode,
   TroubleFact,
@@ -124,3 +126,29 @@ export const VOIDS: Readonly<Record<VoidFact['code'], string>> = {
   rewound: 'it was rewound',
   other_input: 'something else than the magnet was moved or set',
 };
+
+/** Whether the trial is recorded. */
+export function recordingWords(fact: RecordingFact): string {
+  switch (fact.code) {
+    case 'on':
+      return 'recording';
+    case 'slow':
+      return `recording, ${fact.lost_ticks} ticks lost: the disk is too slow`;
+    case 'interrupted':
+      return `interrupted: ${fact.detail}; waiting for its folder`;
+    case 'stopped':
+      return `stopped: ${fact.detail}`;
+    case 'refused':
+      return `not recording: ${fact.detail}`;
+    case 'off':
+      return 'not recording';
+  }
+}
+
+const ENDS: Readonly<Record<EndFact['code'], string>> = {
+  trial_failed: 'The session has ended',
+  crashed: 'The session has ended by a fault of Ferry',
+};
+
+/** Why the session ended. */
+export const endWords = ({ code, detail }: EndFact): string => `${ENDS[code]}: ${detail}.`;

@@ -2,8 +2,8 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import type { RobotStanding } from '../../net/protocol.gen';
-import { clientsWords, motionWords } from './words';
 import { shownName } from '../../ui/name';
+import { clientMotionWords, clientsWords } from '../../words/robot';
 import './robot.css';
 
 /** Refusals that fit into the panel, newest first. */
@@ -18,7 +18,7 @@ export function RobotFacts(props: { robot: RobotStanding }): JSX.Element {
         classList={{ stopped: props.robot.stop !== null }}
         role={props.robot.stop === null ? undefined : 'alert'}
       >
-        {motionWords(props.robot)}
+        {clientMotionWords(props.robot)}
       </p>
       <ul aria-label="Robot clients">
         <For each={clientsWords(props.robot)} fallback={<li>No client is connected.</li>}>

@@ -4,7 +4,7 @@ import { Show, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import type { TwinStanding } from '../../net/protocol.gen';
 import { createHold } from './hold';
-import { connectionWords, doubtWords, motionWords } from './words';
+import { connectionWords, doubtWords, robotMotionWords } from '../../words/robot';
 import './twin.css';
 
 const isKey = ({ key }: KeyboardEvent): boolean => key === ' ' || key === 'Enter';
@@ -87,7 +87,7 @@ function Facts(props: { lab: Session; twin: TwinStanding }): JSX.Element {
         classList={{ stopped: props.twin.stopped !== null }}
         role={hasStopped() ? 'alert' : undefined}
       >
-        {motionWords(props.twin)}
+        {robotMotionWords(props.twin)}
       </p>
       <Show when={props.twin.allows_motion}>
         <HoldButton lab={props.lab} twin={props.twin} />

@@ -1,5 +1,7 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
+import type { Told } from './facts.gen';
+
 /**
  * A connection.
  */
@@ -12,6 +14,11 @@ from: string,
  * `dashboard`, `URScript` or `RTDE`.
  */
 speech: string, };
+
+/**
+ * Why the arm is in a protective stop.
+ */
+export type ProtectiveStop = { "code": "requested" } | { "code": "refused", detail: string, };
 
 /**
  * What was refused, and why.
@@ -33,11 +40,35 @@ command: string | null,
 /**
  * Why the arm is in a protective stop.
  */
-stop: string | null, 
+stop: Told<ProtectiveStop> | null, 
 /**
  * Newest last, at most 20.
  */
 refused: Array<RobotRefusal>, };
+
+/**
+ * Where the robot and Ferry say that one part of the arm is.
+ */
+export type ApartFact = { 
+/**
+ * Position in metres and rotation vector in radians, as URScript writes a pose.
+ */
+reported: [number, number, number, number, number, number], computed: [number, number, number, number, number, number], distance_m: number, angle_rad: number, };
+
+/**
+ * Why places on the table may be others than Ferry's.
+ */
+export type DoubtFact = { "code": "tool" } & ApartFact | { "code": "flange" } & ApartFact;
+
+/**
+ * Why a robot does not follow. `detail` is an English sentence.
+ */
+export type DriveFact = { "code": "not_enabled" } | { "code": "not_connected" } | { "code": "mode", robot_mode: number, } | { "code": "safety", safety_mode: number, } | { "code": "busy" } | { "code": "place", detail: string, } | { "code": "other_arm" } & ApartFact | { "code": "no_arm" } | { "code": "not_begun" } | { "code": "not_sent", detail: string, } | { "code": "silent" } | { "code": "over" } | { "code": "behind", joint: number, behind_rad: number, } | { "code": "limit", detail: string, } | { "code": "refused", detail: string, } | { "code": "changed" } | { "code": "released" };
+
+/**
+ * Why a robot is not connected. `detail` is what the system says, in English.
+ */
+export type TwinTrouble = { "code": "not_yet" } | { "code": "failed", detail: string, };
 
 /**
  * A robot outside of Ferry (`ferry drive`), whose arm the simulated one mirrors.
@@ -50,7 +81,7 @@ allows_motion: boolean,
 /**
  * Why it is not connected; `null` if it is.
  */
-trouble: string | null, 
+trouble: Told<TwinTrouble> | null, 
 /**
  * What its dashboard says that it is; `null` if it does not say.
  */
@@ -58,7 +89,7 @@ model: string | null,
 /**
  * Why places on the table may be others than Ferry's; `null` if there is no reason to think so.
  */
-doubt: string | null, 
+doubt: Told<DoubtFact> | null, 
 /**
  * As it reports it: 7 while it runs.
  */
@@ -78,4 +109,4 @@ is_driven: boolean,
 /**
  * Why it does not follow, or no longer.
  */
-stopped: string | null, };
+stopped: Told<DriveFact> | null, };

@@ -3,7 +3,7 @@
 import type { Parameters } from '../parameters.gen';
 import type { AttemptStanding } from './challenges.gen';
 import type { ControllerName, Polygon, PositionerKind, Rect, Scenario } from './experiment.gen';
-import type { PhaseFact, Reason, RefusalFact, Told, TroubleFact } from './facts.gen';
+import type { EndFact, PhaseFact, Reason, RecordingFact, RefusalFact, Told, TroubleFact } from './facts.gen';
 import type { ProgramStanding } from './programs.gen';
 import type { RobotStanding, TwinStanding } from './robot.gen';
 
@@ -274,10 +274,10 @@ twin: TwinStanding | null,
  */
 world_hash: string, 
 /**
- * `recording`, or why nothing is recorded.
+ * Whether everything is recorded, or why not.
  */
-recording: string, 
+recording: Told<RecordingFact>, 
 /**
  * Why the session ended, if it has.
  */
-ended: string | null, };
+ended: Told<EndFact> | null, };
