@@ -173,6 +173,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 EvaluationQuery,
                 Cell,
                 PaperRow,
+                Setting,
                 EvaluationCell,
                 EvaluationSummary,
                 Evaluations
@@ -194,7 +195,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 RecoveryTrials,
             ],
         ),
-        ("report", declared![Setting, Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
+        ("report", declared![Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
         ("recordings", declared![RecordingFile, RecordingContent, RecordingList, RecordingTitle]),
         ("maps", declared![NarrowPlace, MapFacts, MapReport, MapCheck]),
         (

@@ -1,6 +1,6 @@
 // Commands that wait for the server's answer.
 
-import type { ClientMessage, DoneMessage, RefusedMessage } from '../net/protocol.gen';
+import type { ClientMessage, RefusedMessage, ServerMessage } from '../net/protocol.gen';
 import type { Place } from './places';
 
 export type Answer =
@@ -10,6 +10,8 @@ export type Answer =
   | { readonly kind: 'refused'; readonly refusal: RefusedMessage }
   /** The connection was lost: it may have been carried out. */
   | { readonly kind: 'unknown' };
+
+export type AnswerMessage = Extract<ServerMessage, { type: 'done' | 'refused' }>;
 
 /** Messages that are repeated or follow a hand. They carry no id and have no answer. */
 export type Streamed = Extract<
@@ -43,7 +45,7 @@ export class Commands {
     return this.waiting.get(id)?.at;
   }
 
-  answer(message: ({ type: 'done' } & DoneMessage) | ({ type: 'refused' } & RefusedMessage)): void {
+  answer(message: AnswerMessage): void {
     const one = this.waiting.get(message.id);
     this.waiting.delete(message.id);
     one?.settle(

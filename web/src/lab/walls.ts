@@ -5,18 +5,14 @@ import type { Lumen } from '../net/protocol.gen';
 import { get } from '../net/requests';
 import { sessionPath } from '../net/session';
 import { MovedWalls } from './movedWalls';
-import type { Notices, Session, Trial } from './slices';
-
-type Known = Pick<Session, 'session' | 'connection'> &
-  Pick<Trial, 'scene' | 'state'> &
-  Pick<Notices, 'notify'>;
+import type { Basis } from './basis';
 
 /**
  * The walls where they are now; undefined while they are at rest. It is the same object that has moved, and it changes
  * when that is visible.
  */
 export function createWalls(
-  lab: Known,
+  lab: Pick<Basis, 'session' | 'connection' | 'scene' | 'state' | 'notify'>,
   request: (path: string) => Promise<Lumen> = get,
 ): Accessor<MovedWalls | undefined> {
   const [walls, setWalls] = createSignal<MovedWalls>();
