@@ -1,5 +1,6 @@
 // Commands that wait for the server's answer.
 
+import type { Numbered } from '../net/connection';
 import type { ClientMessage, RefusedMessage, ServerMessage } from '../net/protocol.gen';
 import type { Place } from './places';
 
@@ -18,8 +19,6 @@ export type Streamed = Extract<
   ClientMessage,
   { type: 'drag' | 'release' | 'steer' | 'drive_robot' }
 >;
-
-export type Numbered = ClientMessage & { readonly id?: number };
 
 interface Waiting {
   readonly at: Place;
