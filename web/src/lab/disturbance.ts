@@ -7,7 +7,6 @@ import type {
   ClientMessage,
   Disturbance,
   SceneMessage,
-  Scripted,
   StateMessage,
   When,
 } from '../net/protocol.gen';

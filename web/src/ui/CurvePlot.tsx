@@ -3,6 +3,7 @@
 import { For, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
+import { createPalette } from './palette';
 import type { Theme } from './theme';
 import { createCurve, type CurveContext, type CurveLine } from './curve';
 import './plot.css';
@@ -11,14 +12,16 @@ export function CurvePlot(props: {
   title: string;
   unit: string;
   name: string;
-  keys: readonly CurveLine[];
+  /** The legend. */
+  keys?: readonly CurveLine[];
   theme: () => Theme;
   context: CurveContext;
   data: uPlot.AlignedData;
 }): JSX.Element {
   let root!: HTMLDivElement;
+  const palette = createPalette(() => props.theme());
   onMount(() => {
-    const plot = createCurve(root, props.context);
+    const plot = createCurve(root, props.context, palette);
     const observer = new ResizeObserver(() => {
       plot.setSize({ width: root.clientWidth, height: root.clientHeight });
     });
@@ -30,9 +33,15 @@ export function CurvePlot(props: {
     createEffect(() => {
       plot.setData(props.data);
     });
-    createEffect(on(props.theme, () => plot.redraw(true), { defer: true }));
+    createEffect(on(palette, () => plot.redraw(true), { defer: true }));
     // The curve itself does not change.
-    createEffect(on(props.context.rules, () => plot.redraw(false), { defer: true }));
+    createEffect(
+      on(
+        () => props.context.rules?.(),
+        () => plot.redraw(false),
+        { defer: true },
+      ),
+    );
   });
   return (
     <figure class="plot">
