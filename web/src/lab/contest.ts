@@ -9,6 +9,7 @@ import type {
   ChallengeReport,
   Ghosts,
 } from '../net/protocol.gen';
+import { reasonText } from '../net/problem';
 import { get, post } from '../net/requests';
 import { sessionPath } from '../net/session';
 import type { Basis } from './basis';
@@ -42,7 +43,7 @@ export function createContest(lab: Basis) {
       const data = await asking;
       if (key() === asked) store(data);
     } catch (reason) {
-      if (key() === asked) setError(reason instanceof Error ? reason.message : String(reason));
+      if (key() === asked) setError(reasonText(reason));
     }
   };
   const loadBoard = async (of: string): Promise<void> => {

@@ -2,6 +2,7 @@
 
 import { createEffect, createMemo, createSignal, untrack, type Accessor } from 'solid-js';
 import type { Lumen } from '../net/protocol.gen';
+import { reasonText } from '../net/problem';
 import { get } from '../net/requests';
 import { sessionPath } from '../net/session';
 import { MovedWalls } from './movedWalls';
@@ -25,8 +26,7 @@ export function createWalls(
       if (number === requests) setWalls(new MovedWalls(lumen));
     } catch (reason) {
       if (number !== requests) return;
-      const why = reason instanceof Error ? reason.message : String(reason);
-      lab.notify('workspace', `The moving walls cannot be drawn: ${why}`);
+      lab.notify('workspace', `The moving walls cannot be drawn: ${reasonText(reason)}`);
     }
   };
   // A request that failed is repeated when the walls move again after a rest, or after a lost connection.

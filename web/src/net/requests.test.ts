@@ -1,7 +1,7 @@
 import { createRoot, createSignal } from 'solid-js';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { createAnswerFrom } from './requests';
-import { problemText, withoutHashes } from './problem';
+import { problemOf } from './problem';
 
 beforeEach(() => {
   vi.useFakeTimers();
@@ -101,17 +101,19 @@ describe('an answer', () => {
   });
 });
 
-describe('the text of a refusal', () => {
-  it('is its detail', () => {
-    expect(problemText({ detail: 'count must be from 2', field: 'count' })).toMatch(/^count/);
-    expect(problemText({ title: 'Bad' })).toBeUndefined();
-    expect(problemText(undefined)).toBeUndefined();
+describe('a problem', () => {
+  it('has a text and a field', async () => {
+    const problem = { detail: 'count must be from 2', field: 'count' };
+    expect(await problemOf(Response.json(problem))).toEqual(problem);
   });
 
-  it('has names in place of references', () => {
-    expect(withoutHashes('"mine@0123456789abcdef" or other@fedcba9876543210')).toBe(
-      '"mine" or other',
-    );
-    expect(withoutHashes('a@b.org')).toBe('a@b.org');
+  it('has names in place of references', async () => {
+    const detail = '"mine@0123456789abcdef" or other@fedcba9876543210, a@b.org';
+    expect((await problemOf(Response.json({ detail }))).detail).toBe('"mine" or other, a@b.org');
+  });
+
+  it('is empty in the answer of a proxy', async () => {
+    for (const body of ['<html>', 'null', '{"title":"Bad"}'])
+      expect(await problemOf(new Response(body))).toEqual({});
   });
 });

@@ -3,7 +3,7 @@
 import { createEffect, createMemo, createSignal, onCleanup, type Accessor } from 'solid-js';
 import { askServer } from './access';
 import { Limiter } from './limiter';
-import { problemField, problemText } from './problem';
+import { problemOf, reasonText } from './problem';
 
 export interface Answer<A> {
   /** The newest answer. It is kept when a later query is refused. */
@@ -29,15 +29,15 @@ export class Refusal extends Error {
   }
 }
 
-async function answered(path: string, init: RequestInit): Promise<Response> {
+/** The response to a request; throws a refusal with the message to show. */
+export async function answered(path: string, init: RequestInit): Promise<Response> {
   const response = await askServer(path, init).catch(() => {
     throw new Refusal('The server did not answer.');
   });
   if (!response.ok) {
     const { status } = response;
-    const problem: unknown = await response.json().catch(() => undefined);
-    const detail = problemText(problem) ?? `The server answered with status ${status}.`;
-    throw new Refusal(detail, problemField(problem), status);
+    const { detail, field } = await problemOf(response);
+    throw new Refusal(detail ?? `The server answered with status ${status}.`, field, status);
   }
   return response;
 }
@@ -102,8 +102,7 @@ export function createAnswerFrom<A>(
     try {
       next = { data: await answerTo(body), key };
     } catch (reason) {
-      const error = reason instanceof Error ? reason.message : String(reason);
-      next = { ...answer(), error, key };
+      next = { ...answer(), error: reasonText(reason), key };
     }
     if (number <= answered) return;
     answered = number;
