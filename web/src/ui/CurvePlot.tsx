@@ -6,6 +6,7 @@ import 'uplot/dist/uPlot.min.css';
 import { createPalette } from './palette';
 import type { Theme } from './theme';
 import { createCurve, type CurveContext, type CurveLine } from './curve';
+import { onResize } from './resize';
 import './plot.css';
 
 export function CurvePlot(props: {
@@ -22,12 +23,10 @@ export function CurvePlot(props: {
   const palette = createPalette(() => props.theme());
   onMount(() => {
     const plot = createCurve(root, props.context, palette);
-    const observer = new ResizeObserver(() => {
+    onResize(root, () => {
       plot.setSize({ width: root.clientWidth, height: root.clientHeight });
     });
-    observer.observe(root);
     onCleanup(() => {
-      observer.disconnect();
       plot.destroy();
     });
     createEffect(() => {

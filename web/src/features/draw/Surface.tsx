@@ -18,6 +18,7 @@ import type { Editor } from './editor';
 import { pending, shift } from './editing';
 import { onKey } from './keys';
 import { attachPointer } from './pointer';
+import { onResize } from '../../ui/resize';
 
 const GRID_MM = 50;
 const FONT_PX = 12;
@@ -84,18 +85,13 @@ export function Surface(props: {
     setMmPerPx(1 / (svg.getScreenCTM()?.a ?? 1));
   };
   onMount(() => {
-    const observer = new ResizeObserver(measure);
-    observer.observe(svg);
+    onResize(svg, measure);
     // Another frame has another scale.
     createEffect(() => {
       frame();
       measure();
     });
-    const detach = attachPointer(svg, editor);
-    onCleanup(() => {
-      observer.disconnect();
-      detach();
-    });
+    onCleanup(attachPointer(svg, editor));
   });
   const shapes = createMemo(() => editor.editing().drawing.shapes);
   const by = createMemo(() => shift(editor.editing()));

@@ -41,16 +41,10 @@ export function joinForm(entry: Entry): {
 }
 
 /** `maps[1]` belongs to `maps`, and `settings.discount` to `discount`. */
-const nameOf = (field: string): string => field.replace(/\[.*$/, '').replace(/^.*\./, '');
-
-function wordsOf(reason: unknown): { text: string; name?: string } {
-  if (!(reason instanceof Error)) return { text: String(reason) };
-  const field = 'field' in reason && typeof reason.field === 'string' ? reason.field : undefined;
-  if (field === undefined) return { text: reason.message };
-  // The label beside the text says it already.
-  const own = `${field}: `;
-  const text = reason.message.startsWith(own) ? reason.message.slice(own.length) : reason.message;
-  return { text, name: nameOf(field) };
+function nameIn(reason: unknown): string | undefined {
+  return reason instanceof Error && 'field' in reason && typeof reason.field === 'string'
+    ? reason.field.replace(/\[.*$/, '').replace(/^.*\./, '')
+    : undefined;
 }
 
 export function Form(props: {
@@ -116,9 +110,9 @@ export function Form(props: {
     try {
       await props.send();
     } catch (reason) {
-      const { text, name } = wordsOf(reason);
+      const text = reason instanceof Error ? reason.message : String(reason);
+      const name = nameIn(reason);
       const entry = [...entries].find(({ names }) => name !== undefined && names.includes(name));
-      setPending(false);
       if (entry) refuse(new Map([[entry, text]]));
       else setGeneral(text);
     }
