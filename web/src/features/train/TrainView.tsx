@@ -3,6 +3,7 @@
 import { For, Show, createMemo, mapArray, type JSX } from 'solid-js';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { PolicySummary, TrainingSummary } from '../../net/protocol.gen';
+import { createPalette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import { colourRange } from './colourRange';
 import { Curves } from './Curves';
@@ -41,6 +42,7 @@ function bringIntoView(view: HTMLElement, list: HTMLElement): void {
 export function TrainView(props: TrainProps): JSX.Element {
   const { lab } = props;
   const state = (props.kept.train ??= createTrainState());
+  const palette = createPalette(() => props.theme());
   const all = (): readonly TrainingSummary[] => lab.catalog.trainings() ?? [];
   const sameIds = { equals: (a: string[], b: string[]) => a.join() === b.join() };
   const ids = createMemo(() => all().map(({ id }) => id), [], sameIds);
@@ -215,6 +217,7 @@ export function TrainView(props: TrainProps): JSX.Element {
           </Show>
           <PoliciesPanel
             lab={lab}
+            palette={palette}
             theme={props.theme}
             onUse={(policy) => {
               use(policy, policy.maps);

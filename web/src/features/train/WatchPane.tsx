@@ -14,7 +14,7 @@ import { checkOfMap } from '../../lab/maps';
 import type { MapCheck, TrainingFrame } from '../../net/protocol.gen';
 import { isActive, progressWords } from '../../lab/trainingStage';
 import { counted } from '../../ui/format';
-import { createPalette } from '../../ui/palette';
+import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import { IS_TOUCH } from '../../ui/touch';
 import { CellPanel } from './CellPanel';
@@ -36,13 +36,13 @@ interface PaneProps {
   /** Whether more value maps may widen the range. */
   readonly isGrowing: boolean;
   readonly state: TrainState;
+  readonly palette: () => Palette;
   readonly theme: () => Theme;
 }
 
 export function WatchPane(props: PaneProps): JSX.Element {
   const { live, state } = props;
   const help = createUniqueId();
-  const palette = createPalette(() => props.theme());
   const [map, setMap] = createSignal<MapCheck>();
   /** Why the walls are missing. */
   const [mapError, setMapError] = createSignal<string>();
@@ -112,7 +112,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
         <TrainingPlan
           label={`Plan of ${live.summary().query.map} with the values of ${name()}`}
           helpId={help}
-          palette={palette()}
+          palette={props.palette()}
           map={map()}
           cells={live.cells()}
           frame={frame()}
