@@ -4,7 +4,6 @@ import { onCleanup, onMount, type JSX } from 'solid-js';
 import { attachInput } from './input';
 import type { Interaction, Surface } from './interaction';
 import type { ByHand, Session, Trial } from '../lab/slices';
-import { onResize } from '../ui/resize';
 import './ViewCanvas.css';
 
 export interface Size {
@@ -28,9 +27,10 @@ export function ViewCanvas(props: {
   let canvas!: HTMLCanvasElement;
 
   onMount(() => {
-    onResize(canvas, () => {
+    const observer = new ResizeObserver(() => {
       props.onSize({ width: canvas.clientWidth, height: canvas.clientHeight });
     });
+    observer.observe(canvas);
     const open = new AbortController();
     const surface: Surface = {
       motion: () => undefined,
@@ -41,6 +41,7 @@ export function ViewCanvas(props: {
     interaction.enter(surface);
     attachInput(canvas, lab, interaction, surface, open.signal);
     onCleanup(() => {
+      observer.disconnect();
       open.abort();
       interaction.leave();
     });

@@ -3,44 +3,36 @@
 import { For, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { createPalette } from './palette';
 import type { Theme } from './theme';
 import { createCurve, type CurveContext, type CurveLine } from './curve';
-import { onResize } from './resize';
 import './plot.css';
 
 export function CurvePlot(props: {
   title: string;
   unit: string;
   name: string;
-  /** The legend. */
-  keys?: readonly CurveLine[];
+  keys: readonly CurveLine[];
   theme: () => Theme;
   context: CurveContext;
   data: uPlot.AlignedData;
 }): JSX.Element {
   let root!: HTMLDivElement;
-  const palette = createPalette(() => props.theme());
   onMount(() => {
-    const plot = createCurve(root, props.context, palette);
-    onResize(root, () => {
+    const plot = createCurve(root, props.context);
+    const observer = new ResizeObserver(() => {
       plot.setSize({ width: root.clientWidth, height: root.clientHeight });
     });
+    observer.observe(root);
     onCleanup(() => {
+      observer.disconnect();
       plot.destroy();
     });
     createEffect(() => {
       plot.setData(props.data);
     });
-    createEffect(on(palette, () => plot.redraw(true), { defer: true }));
+    createEffect(on(props.theme, () => plot.redraw(true), { defer: true }));
     // The curve itself does not change.
-    createEffect(
-      on(
-        () => props.context.rules?.(),
-        () => plot.redraw(false),
-        { defer: true },
-      ),
-    );
+    createEffect(on(props.context.rules, () => plot.redraw(false), { defer: true }));
   });
   return (
     <figure class="plot">

@@ -32,9 +32,10 @@ export interface Rule {
 }
 
 export interface CurveContext {
+  readonly palette: () => Palette;
   readonly lines: readonly CurveLine[];
   /** Pairs of lines, upper one first, with the area between them filled in the colour of the upper one. */
-  readonly bands?: readonly (readonly [number, number])[];
+  readonly bands: readonly (readonly [number, number])[];
   /** Pairs of lines whose points are joined by an error bar in the colour of the upper one. */
   readonly bars?: readonly (readonly [number, number])[];
   readonly xRange: () => [number, number];
@@ -43,9 +44,9 @@ export interface CurveContext {
   readonly xSplits?: (most: number) => number[];
   readonly xText: (value: number) => string;
   readonly yText: (value: number) => string;
-  readonly shades?: () => readonly Shade[];
-  readonly rules?: () => readonly Rule[];
-  readonly onCursor?: (index: number | undefined) => void;
+  readonly shades: () => readonly Shade[];
+  readonly rules: () => readonly Rule[];
+  readonly onCursor: (index: number | undefined) => void;
 }
 
 const FONT = '10px system-ui, sans-serif';
@@ -64,13 +65,13 @@ function translucent(color: string): string {
   return /^#[0-9a-f]{6}$/i.test(color) ? color + FILL_ALPHA : color;
 }
 
-function drawShades(u: uPlot, { shades }: CurveContext, palette: Palette): void {
+function drawShades(u: uPlot, context: CurveContext): void {
   inside(u, (ctx) => {
     ctx.globalAlpha = SHADE_ALPHA;
-    for (const shade of shades?.() ?? []) {
+    for (const shade of context.shades()) {
       const from = u.valToPos(shade.from, 'x', true);
       const to = u.valToPos(shade.to, 'x', true);
-      ctx.fillStyle = palette[shade.color];
+      ctx.fillStyle = context.palette()[shade.color];
       ctx.fillRect(from, u.bbox.top, to - from, u.bbox.height);
     }
   });
@@ -95,24 +96,24 @@ function drawRule(u: uPlot, rule: Rule, ctx: CanvasRenderingContext2D, ratio: nu
   else ctx.fillText(rule.label, bbox.left + bbox.width - 4 * ratio, at - ratio);
 }
 
-function drawRules(u: uPlot, { rules }: CurveContext, palette: Palette): void {
+function drawRules(u: uPlot, context: CurveContext): void {
   inside(u, (ctx, ratio) => {
     ctx.lineWidth = ratio;
     ctx.font = `${11 * ratio}px system-ui, sans-serif`;
-    for (const rule of rules?.() ?? []) {
-      ctx.strokeStyle = palette[rule.color];
-      ctx.fillStyle = palette[rule.color];
+    for (const rule of context.rules()) {
+      ctx.strokeStyle = context.palette()[rule.color];
+      ctx.fillStyle = context.palette()[rule.color];
       drawRule(u, rule, ctx, ratio);
     }
   });
 }
 
-function drawBars(u: uPlot, { bars, lines }: CurveContext, palette: Palette): void {
+function drawBars(u: uPlot, context: CurveContext): void {
   inside(u, (ctx, ratio) => {
     ctx.lineWidth = 1.5 * ratio;
-    for (const [upper, lower] of bars ?? []) {
+    for (const [upper, lower] of context.bars ?? []) {
       const [highs, lows] = [u.data[upper + 1], u.data[lower + 1]];
-      ctx.strokeStyle = palette[lines[upper]?.color ?? 'text'];
+      ctx.strokeStyle = context.palette()[context.lines[upper]?.color ?? 'text'];
       ctx.beginPath();
       u.data[0].forEach((x, index) => {
         const ends = [highs?.[index], lows?.[index]];
@@ -142,15 +143,11 @@ function widthPx({ ctx }: uPlot, texts: readonly string[]): number {
   return Math.max(LEAST_WIDTH_PX, Math.ceil(Math.max(...widths) + 2 * GAP_PX));
 }
 
-export function createCurve(
-  root: HTMLElement,
-  context: CurveContext,
-  palette: () => Palette,
-): uPlot {
+export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
   const axis = {
-    stroke: () => palette().muted,
+    stroke: () => context.palette().muted,
     font: FONT,
-    grid: { stroke: () => palette().grid, width: 1 },
+    grid: { stroke: () => context.palette().grid, width: 1 },
     ticks: { show: false },
     gap: GAP_PX,
   };
@@ -186,7 +183,7 @@ export function createCurve(
         {},
         ...context.lines.map((line) => ({
           label: line.label,
-          stroke: () => palette()[line.color],
+          stroke: () => context.palette()[line.color],
           width: line.isEdge ? 0 : 1.5,
           pxAlign: 0,
           spanGaps: line.joinsGaps ?? false,
@@ -194,25 +191,25 @@ export function createCurve(
           points: { show: line.hasPoints ?? false, size: 5 },
         })),
       ],
-      bands: (context.bands ?? []).map(([upper, lower]) => ({
+      bands: context.bands.map(([upper, lower]) => ({
         series: [upper + 1, lower + 1],
-        fill: () => translucent(palette()[context.lines[upper]?.color ?? 'text']),
+        fill: () => translucent(context.palette()[context.lines[upper]?.color ?? 'text']),
       })),
       hooks: {
         drawAxes: [
           (u) => {
-            drawShades(u, context, palette());
+            drawShades(u, context);
           },
         ],
         draw: [
           (u) => {
-            drawBars(u, context, palette());
-            drawRules(u, context, palette());
+            drawBars(u, context);
+            drawRules(u, context);
           },
         ],
         setCursor: [
           (u) => {
-            context.onCursor?.(u.cursor.idx ?? undefined);
+            context.onCursor(u.cursor.idx ?? undefined);
           },
         ],
       },

@@ -5,6 +5,7 @@ import type uPlot from 'uplot';
 import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
 import { errors_m, lastTick } from '../../lab/comparison';
 import { COMPARABLE } from '../../lab/offered';
+import { createPalette } from '../../ui/palette';
 import { controllerLabel } from '../../lab/parameters';
 import type { Branch, ComparisonMessage } from '../../net/protocol.gen';
 import type { CurveContext } from '../../ui/curve';
@@ -147,6 +148,7 @@ function Errors(
   },
 ): JSX.Element {
   const { lab } = props;
+  const palette = createPalette(() => props.theme());
   const threshold_cm = (): number => (lab.scene()?.parameters.threshold_m ?? 0) * CM;
   const shown_s = (): number => (lab.comparison.tick() - props.comparison.tick) * props.tick_s;
   const rules = createMemo(() => [
@@ -167,7 +169,9 @@ function Errors(
       );
   };
   const context: CurveContext = {
+    palette,
     lines,
+    bands: [],
     xRange: () => [
       0,
       Math.max(1, (lastTick(props.comparison) - props.comparison.tick) * props.tick_s),
@@ -175,7 +179,9 @@ function Errors(
     yRange: (max) => [0, Math.max(1.2 * threshold_cm(), 1.1 * max)],
     xText: (value) => `${value} s`,
     yText: axisLabel,
+    shades: () => [],
     rules,
+    onCursor: () => undefined,
   };
   return (
     <CurvePlot

@@ -18,7 +18,6 @@ import type { Editor } from './editor';
 import { pending, shift } from './editing';
 import { onKey } from './keys';
 import { attachPointer } from './pointer';
-import { onResize } from '../../ui/resize';
 
 const GRID_MM = 50;
 const FONT_PX = 12;
@@ -85,13 +84,18 @@ export function Surface(props: {
     setMmPerPx(1 / (svg.getScreenCTM()?.a ?? 1));
   };
   onMount(() => {
-    onResize(svg, measure);
+    const observer = new ResizeObserver(measure);
+    observer.observe(svg);
     // Another frame has another scale.
     createEffect(() => {
       frame();
       measure();
     });
-    onCleanup(attachPointer(svg, editor));
+    const detach = attachPointer(svg, editor);
+    onCleanup(() => {
+      observer.disconnect();
+      detach();
+    });
   });
   const shapes = createMemo(() => editor.editing().drawing.shapes);
   const by = createMemo(() => shift(editor.editing()));

@@ -4,6 +4,7 @@ import { For, Index, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import { CurvePlot } from '../../ui/CurvePlot';
 import type { CurveContext, CurveLine } from '../../ui/curve';
 import { counted, fixed } from '../../ui/format';
+import { createPalette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import type { EvaluationSummary, Row } from '../../net/protocol.gen';
 import {
@@ -41,6 +42,7 @@ function Curve(props: {
   name: string;
   theme: () => Theme;
 }): JSX.Element {
+  const palette = createPalette(() => props.theme());
   const [pointed, setPointed] = createSignal<number>();
   const data = createMemo(() => columnsOf(props.measure, props.picture));
   // Their number does not change: they are those of the query.
@@ -53,15 +55,19 @@ function Curve(props: {
     return [from - air, to + air];
   };
   const context: CurveContext = {
+    palette,
     lines: keys.flatMap((key) => {
       const edge = { label: '', color: key.color, isEdge: true };
       return [edge, edge, key];
     }),
+    bands: [],
     bars: edges,
     xRange: () => [...range()],
     yRange: (max) => [...(props.measure.range ?? [0, 1.1 * max || 1])],
     xText: (value) => String(Number(value.toPrecision(6))),
     yText: (value) => fixed(value, 0),
+    shades: () => [],
+    rules: () => [],
     onCursor: setPointed,
   };
   const words = (): string => {
@@ -79,6 +85,7 @@ function Curve(props: {
         unit={props.measure.unit}
         name={`${props.measure.title} over ${axisWords(props.name)}. ${words()}`}
         theme={props.theme}
+        keys={[]}
         context={context}
         data={data()}
       />

@@ -1,10 +1,16 @@
 // The open lesson, its step, and the measurements of its experiments. The store lives as long as the page, so that a
 // lesson continues while the user looks at another tab.
 
-import { createEffect, createMemo, createSignal, untrack, type Accessor } from 'solid-js';
+import {
+  createEffect,
+  createMemo,
+  createRoot,
+  createSignal,
+  untrack,
+  type Accessor,
+} from 'solid-js';
 import { experimentFrom, loadMessage } from '../../lab/experimentLink';
 import { knownBy } from '../../lab/known';
-import { perLab } from '../../lab/perLab';
 import {
   allDone,
   isTrainingLesson,
@@ -187,5 +193,14 @@ function createLessons(lab: LessonsLab): Lessons {
   };
 }
 
-/** The lessons of a laboratory, shared by all panels. */
-export const lessonsOf = perLab(createLessons);
+const stores = new WeakMap<LessonsLab, Lessons>();
+
+/** The lessons of a laboratory. Created once and shared by all panels. */
+export function lessonsOf(lab: LessonsLab): Lessons {
+  let store = stores.get(lab);
+  if (!store) {
+    store = createRoot(() => createLessons(lab));
+    stores.set(lab, store);
+  }
+  return store;
+}

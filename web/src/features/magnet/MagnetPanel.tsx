@@ -17,6 +17,7 @@ import {
   type Side,
   SIDES,
 } from './magnet';
+import { createPalette } from '../../ui/palette';
 import type {
   Parameters,
   PullCurve,
@@ -41,6 +42,7 @@ function Magnet(props: {
   const { lab } = props;
   const [side, setSide] = createSignal<Side>('x');
   const [pointed, setPointed] = createSignal<string>();
+  const palette = createPalette(() => props.theme());
   const direction_rad = createMemo(() => {
     const state = lab.state();
     return state ? directionOf(side(), state.tool_m, state.bead_m) : 0;
@@ -76,11 +78,13 @@ function Magnet(props: {
   const liftOff_m = (): number | undefined => reach().data?.lift_off_m;
 
   const pullContext: CurveContext = {
+    palette,
     lines: [
       { label: 'lift', color: 'text' },
       { label: 'pull', color: 'tool' },
       { label: 'friction', color: 'bead' },
     ],
+    bands: [],
     xRange: () => [0, 100 * shownOffset(pull().data?.capture_m ?? null)],
     yRange: (max) => [0, Math.max(1.15, 1.05 * max)],
     xText: (value) => (value === 0 ? '' : `${value} cm`),
@@ -116,6 +120,7 @@ function Magnet(props: {
   });
 
   const reachContext: CurveContext = {
+    palette,
     lines: [
       { label: 'outer end', color: 'tool' },
       { label: 'inner end', color: 'tool' },

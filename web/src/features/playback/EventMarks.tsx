@@ -1,11 +1,18 @@
 // The events on the timeline. Each is a button that opens the event's story.
 
-import { Index, createEffect, createMemo, createSignal, onMount, type JSX } from 'solid-js';
+import {
+  Index,
+  createEffect,
+  createMemo,
+  createSignal,
+  onCleanup,
+  onMount,
+  type JSX,
+} from 'solid-js';
 import { Limiter } from '../../net/limiter';
 import { clusters, markTitle } from './eventMarks';
 import type { EventMessage } from '../../net/protocol.gen';
 import type { Events } from '../../lab/slices';
-import { onResize } from '../../ui/resize';
 
 /** Side of a mark, the same as `--target` in the style sheet. */
 const GAP_PX = matchMedia('(pointer: coarse)').matches ? 36 : 24;
@@ -22,8 +29,12 @@ export function EventMarks(props: { lab: Events; oldest: number; newest: number 
   let bar!: HTMLDivElement;
   const [width_px, setWidth] = createSignal(0);
   onMount(() => {
-    onResize(bar, () => {
+    const observer = new ResizeObserver(() => {
       setWidth(bar.clientWidth);
+    });
+    observer.observe(bar);
+    onCleanup(() => {
+      observer.disconnect();
     });
   });
   const [line, setLine] = createSignal({ oldest: 0, newest: 0, marks: lab.marks() });

@@ -1,6 +1,6 @@
 // The locus: the part of the figure in the plane, with its caption.
 
-import { createEffect, createMemo, createSignal, on, onMount, type JSX } from 'solid-js';
+import { createEffect, createMemo, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import { fitView, type View } from '../../plan/transform';
@@ -13,7 +13,6 @@ import { TERMS } from '../../lab/terms';
 import type { Vec2 } from '../../lab/geometry';
 import { shownWalls } from '../../lab/sight';
 import type { ByHand, Trial } from '../../lab/slices';
-import { onResize } from '../../ui/resize';
 import '../../ui/plot.css';
 
 const INSETS = { left: 3, right: 3, top: 3, bottom: 3 };
@@ -78,8 +77,12 @@ export function LocusPlot(props: {
   };
 
   onMount(() => {
-    onResize(canvas, () => {
+    const observer = new ResizeObserver(() => {
       setSize({ width: canvas.clientWidth, height: canvas.clientHeight });
+    });
+    observer.observe(canvas);
+    onCleanup(() => {
+      observer.disconnect();
     });
     props.onDraw(draw);
     createEffect(on([view, walls, props.palette, figure.pointed_s], draw));

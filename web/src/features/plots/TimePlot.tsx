@@ -9,7 +9,6 @@ import type { Figure } from './figure';
 import type { Part } from './parts';
 import { nearestIndex } from './sample';
 import { createTimePlot, type PlotContext, showCursor, showSample } from './timePlot';
-import { onResize } from '../../ui/resize';
 import '../../ui/plot.css';
 
 interface TimePlotProps {
@@ -59,10 +58,12 @@ export function TimePlot(props: TimePlotProps): JSX.Element {
       figure.point(time_s);
     });
     plot = made;
-    onResize(root, () => {
+    const observer = new ResizeObserver(() => {
       made.setSize({ width: root.clientWidth, height: root.clientHeight });
     });
+    observer.observe(root);
     onCleanup(() => {
+      observer.disconnect();
       made.destroy();
     });
     props.onDraw(() => {

@@ -1,8 +1,16 @@
-// The newest kept run that the user has seen.
+// The newest kept run that the user has seen. Lives as long as the page, because the button goes with the laboratory.
 
 import { createSignal, type Signal } from 'solid-js';
-import { perLab } from '../../lab/perLab';
 import type { Session } from '../../lab/slices';
 
+const seen = new WeakMap<Session, Signal<number | undefined>>();
+
 /** Number of the newest run that the user has seen; undefined until the first scene. */
-export const seenOf = perLab<Session, Signal<number | undefined>>(() => createSignal<number>());
+export function seenOf(lab: Session): Signal<number | undefined> {
+  let signal = seen.get(lab);
+  if (!signal) {
+    signal = createSignal<number>();
+    seen.set(lab, signal);
+  }
+  return signal;
+}

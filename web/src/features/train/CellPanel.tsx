@@ -6,6 +6,7 @@ import type { TrainingCells, TrainingFrame } from '../../net/protocol.gen';
 import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
 import { counted, fixed } from '../../ui/format';
+import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import { rangeAround, ROOM, updateSplits, updateText } from './curves';
 import { fanAt } from './grid';
@@ -22,12 +23,14 @@ export function CellPanel(props: {
   count: number;
   /** Updates at the end of the training. */
   total: number;
+  palette: () => Palette;
   theme: () => Theme;
 }): JSX.Element {
   const [pointed, setPointed] = createSignal<number>();
   const fan = createMemo(() => fanAt(props.frames, props.cell));
   const quantile = (index: number): readonly number[] => fan().quantiles[index] ?? [];
   const context: CurveContext = {
+    palette: () => props.palette(),
     lines: [
       { ...LINE, label: '.95', isEdge: true },
       { ...LINE, label: '.05', isEdge: true },
@@ -44,6 +47,7 @@ export function CellPanel(props: {
     yRange: rangeAround,
     xText: updateText,
     yText: (value) => fixed(value, 2),
+    shades: () => [],
     rules: createMemo(() =>
       props.frame
         ? [{ axis: 'x', at: props.frame.update, label: '', color: 'text', dashed: true } as const]

@@ -4,6 +4,7 @@ import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type { CurveContext, CurveLine } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
 import { fixed } from '../../ui/format';
+import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import type { TrainingPoint } from '../../net/protocol.gen';
 import {
@@ -36,6 +37,7 @@ const styleOf = (training: number): Style =>
 interface CurvesProps {
   /** One or two. Their number does not change. */
   readonly curves: readonly Curve[];
+  readonly palette: () => Palette;
   readonly theme: () => Theme;
 }
 
@@ -59,6 +61,7 @@ function Plot(props: CurvesProps & { kind: Kind }): JSX.Element {
   const lines = props.curves.flatMap((curve, training) => linesOf(kind, curve, training));
   const edges = props.curves.map((_, training) => [3 * training, 3 * training + 1] as const);
   const context: CurveContext = {
+    palette: () => props.palette(),
     lines,
     bands: edges,
     // A band needs two points.
@@ -68,6 +71,8 @@ function Plot(props: CurvesProps & { kind: Kind }): JSX.Element {
     yRange: (max, min) => (kind.range ? [...kind.range] : rangeAround(max, min)),
     xText: updateText,
     yText: (value) => fixed(value, kind.range ? 0 : 2),
+    shades: () => [],
+    rules: () => [],
     onCursor: setPointed,
   };
   const names = (): string[] => props.curves.map(({ name }) => name);
@@ -91,6 +96,7 @@ function Plot(props: CurvesProps & { kind: Kind }): JSX.Element {
         unit={kind.unit}
         name={`${kind.title}, ${kind.unit}, over the updates. ${last() ?? 'No points yet.'}`}
         theme={props.theme}
+        keys={[]}
         context={context}
         data={data()}
       />

@@ -5,6 +5,7 @@ import { freeName, mapName } from '../../lab/maps';
 import type { Session, Trial } from '../../lab/slices';
 import type { PolicySummary } from '../../net/protocol.gen';
 import { FileButton } from '../../ui/FileButton';
+import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import { PolicyRow } from './PolicyRow';
 import { policyOf } from './policyUse';
@@ -16,6 +17,7 @@ const ENDING = '.safetensors';
 
 export function PoliciesPanel(props: {
   lab: Session & Trial;
+  palette: () => Palette;
   theme: () => Theme;
   onUse: (policy: PolicySummary) => void;
 }): JSX.Element {
@@ -102,6 +104,7 @@ export function PoliciesPanel(props: {
                       policy={policy()}
                       canOperate={lab.canOperate()}
                       isUsed={used() === name}
+                      palette={props.palette}
                       theme={props.theme}
                       onUse={() => {
                         props.onUse(policy());

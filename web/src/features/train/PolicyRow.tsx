@@ -4,6 +4,7 @@ import { Show, createSignal, type JSX } from 'solid-js';
 import type { PolicyOrigin, PolicySummary } from '../../net/protocol.gen';
 import { ConfirmButton } from '../../ui/ConfirmButton';
 import { roughly } from '../../ui/format';
+import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import { TitleForm } from '../../ui/TitleForm';
 import { policyName } from '../../lab/parameters';
@@ -26,6 +27,7 @@ interface RowProps extends PolicyDeeds {
   readonly canOperate: boolean;
   /** Whether the live session uses it. */
   readonly isUsed: boolean;
+  readonly palette: () => Palette;
   readonly theme: () => Theme;
 }
 
@@ -57,6 +59,7 @@ function Origin(props: RowProps & { origin: PolicyOrigin }): JSX.Element {
               isOver: true,
             },
           ]}
+          palette={props.palette}
           theme={props.theme}
         />
       </Show>

@@ -179,6 +179,7 @@ export function TrainView(props: TrainProps): JSX.Element {
                       range={range()}
                       isGrowing={lives().some((one) => isActive(one.summary()))}
                       state={state}
+                      palette={palette}
                       theme={props.theme}
                     />
                   )}
@@ -208,6 +209,7 @@ export function TrainView(props: TrainProps): JSX.Element {
                         return !isActive(live.summary());
                       },
                     }))}
+                    palette={palette}
                     theme={props.theme}
                   />
                 )}

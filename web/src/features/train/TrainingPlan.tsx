@@ -17,7 +17,6 @@ import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
 import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
 import { around, cellAt, grown, neighbour, valueCells } from './grid';
-import { onResize } from '../../ui/resize';
 
 const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
 const STEPS_PER_S = 14;
@@ -84,7 +83,13 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   });
 
   onMount(() => {
-    onResize(base, () => setSize({ width: base.clientWidth, height: base.clientHeight }));
+    const observer = new ResizeObserver(() =>
+      setSize({ width: base.clientWidth, height: base.clientHeight }),
+    );
+    observer.observe(base);
+    onCleanup(() => {
+      observer.disconnect();
+    });
     createEffect(() => {
       const [now, px] = [drawn(), size()];
       const ctx = px && contextOf(base, px);

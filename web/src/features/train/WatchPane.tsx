@@ -193,6 +193,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
               frames={live.frames()}
               count={count()}
               total={live.summary().updates_total}
+              palette={props.palette}
               theme={props.theme}
             />
           </Show>
