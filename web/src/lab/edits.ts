@@ -50,7 +50,6 @@ export function createEdits(lab: Basis) {
     }),
     /** The value of a moving slider, which is not sent. */
     moving,
-    isPending: (name: keyof Parameters) => name in edits.value(),
     move: (change: Change) => {
       setMoving(change);
     },

@@ -4,18 +4,13 @@ import { reasonText } from '../../net/problem';
 import { answered } from '../../net/requests';
 import { createTheme } from '../../ui/theme';
 import { takeToken } from '../../net/loginToken';
+import { part } from '../part';
 import { addressOf, pathOf } from '../../net/base';
 
-function byTag<T extends Element>(selector: string, kind: new () => T): T {
-  const found = document.querySelector(selector);
-  if (!(found instanceof kind)) throw new Error(`login/index.html has no ${selector}`);
-  return found;
-}
-
-const form = byTag('form', HTMLFormElement);
-const field = byTag('#token', HTMLInputElement);
-const button = byTag('button', HTMLButtonElement);
-const status = byTag('[role=status]', HTMLElement);
+const form = part('form');
+const field = part('input', '#token');
+const button = part('button');
+const status = part('p', '[role=status]');
 
 createTheme();
 

@@ -5,18 +5,11 @@ import { answered } from '../../net/requests';
 import { keptAtHome } from './home';
 import { themeOf } from '../../features/recordings/viewerMessages';
 import { loadViewer, type WebHandle } from './rerun';
+import { part } from '../part';
 import { Scheme } from './scheme';
 import { addressOf } from '../../net/base';
 
 const PANIC_CHECK_MS = 1000;
-
-function part(selector: 'canvas'): HTMLCanvasElement;
-function part(selector: 'p'): HTMLParagraphElement;
-function part(selector: 'canvas' | 'p'): HTMLElement {
-  const found = document.querySelector(selector);
-  if (!found) throw new Error(`viewer/index.html has no ${selector}`);
-  return found;
-}
 
 const canvas = part('canvas');
 const status = part('p');
