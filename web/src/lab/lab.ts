@@ -60,10 +60,8 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     remember(before, after);
     batch(() => {
       setModel(after);
-      const newCamera = pictures.get(BINARY_CAMERA_JPEG);
-      if (newCamera) setCamera(newCamera);
-      const newObservation = pictures.get(BINARY_OBSERVATION);
-      if (newObservation) setObservation(newObservation);
+      setCamera((before) => pictures.get(BINARY_CAMERA_JPEG) ?? before);
+      setObservation((before) => pictures.get(BINARY_OBSERVATION) ?? before);
       pictures.clear();
     });
     // What they answer is shown now.

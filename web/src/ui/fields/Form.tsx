@@ -31,10 +31,7 @@ export interface FormFields {
 const Fields = createContext<FormFields>();
 
 /** Joins the form around the field. */
-export function joinForm(entry: Entry): {
-  refusal: () => string | undefined;
-  mend: () => void;
-} {
+export function joinForm(entry: Entry) {
   const form = useContext(Fields);
   form?.add(entry);
   return { refusal: () => form?.refusal(entry), mend: () => form?.mend(entry) };
