@@ -176,6 +176,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 EvaluationQuery,
                 Cell,
                 PaperRow,
+                Setting,
                 EvaluationCell,
                 EvaluationSummary,
                 Evaluations
@@ -197,7 +198,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
                 RecoveryTrials,
             ],
         ),
-        ("report", declared![Setting, Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
+        ("report", declared![Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
         ("recordings", declared![RecordingFile, RecordingContent, RecordingList, RecordingTitle]),
         ("maps", declared![NarrowPlace, MapFacts, MapReport, MapCheck]),
         (

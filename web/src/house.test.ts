@@ -64,6 +64,29 @@ it('allows imports only from lower floors, and none between features', () => {
   expect(wrong).toEqual([]);
 });
 
+/** Removed with the next change of the challenge's view. */
+const KNOWN_CIRCLE = ['features/challenge/ChallengePanel.tsx', 'features/challenge/PlayView.tsx'];
+
+/** The scripts that a script imports, types included. */
+function importsOf(from: string): string[] {
+  return [...read(from).matchAll(IMPORTS)].flatMap(([, path = '']) => {
+    const to = normalize(join(dirname(from), path));
+    return scripts.filter((file) => [to, `${to}.ts`, `${to}.tsx`].includes(file));
+  });
+}
+
+it('has no circles of imports', () => {
+  const targets = new Map(scripts.map((file) => [file, importsOf(file)]));
+  const isInCircle = (file: string): boolean => {
+    const reached = new Set(targets.get(file));
+    // The set grows while it is read.
+    for (const one of reached) for (const to of targets.get(one) ?? []) reached.add(to);
+    return reached.has(file);
+  };
+  const wrong = scripts.filter((file) => isInCircle(file) && !KNOWN_CIRCLE.includes(file));
+  expect(wrong).toEqual([]);
+});
+
 it('has few files outside the folders', () => {
   const loose = files.filter((file) => !file.includes('/'));
   expect(loose.length, loose.join(', ')).toBeLessThanOrEqual(MAX_LOOSE);

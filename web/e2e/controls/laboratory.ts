@@ -23,8 +23,8 @@ const role = (lab: Lab) => lab.text('role');
 const trial = (lab: Lab) => lab.scene.trial;
 const layers = (lab: Lab) =>
   lab.page.evaluate(() => {
-    const stored = JSON.parse(localStorage.getItem('ferry.layers') ?? 'null') as object | null;
-    return stored && Object.entries(stored).sort();
+    const stored = Object.entries(localStorage);
+    return stored.filter(([key]) => key.startsWith('ferry.layer.')).sort();
   });
 
 const ensureTheme = (name: 'light' | 'dark') => async (lab: Lab) => {

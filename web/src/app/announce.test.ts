@@ -1,4 +1,4 @@
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { createAnnouncer, lastLine, newsOf, roleWords } from './announce';
 import type { LogLine } from '../lab/model';
 import type { Hello } from '../net/protocol.gen';
@@ -49,25 +49,19 @@ describe('announcements', () => {
 
 describe('the announcer', () => {
   it('announces the newest text once per second, and a repeated text again', () => {
-    let nowMs = 0;
-    let later: (() => void) | undefined;
+    vi.useFakeTimers();
     const said: string[] = [];
-    const say = createAnnouncer((text) => said.push(text), {
-      nowMs: () => nowMs,
-      later: (action) => {
-        later = action;
-      },
-    });
+    const say = createAnnouncer((text) => said.push(text));
     say('a');
     say('b');
     say('c');
     expect(said).toEqual(['a']);
-    nowMs = 1000;
-    later?.();
+    vi.advanceTimersByTime(1000);
     expect(said).toEqual(['a', 'c']);
-    nowMs = 2000;
+    vi.advanceTimersByTime(1000);
     say('c');
     expect(said[2]).not.toBe('c');
     expect(said[2]?.trim()).toBe('c');
+    vi.useRealTimers();
   });
 });

@@ -1,6 +1,6 @@
 // Announcements for screen readers. Pure.
 
-import { type Clock, Limiter } from '../net/limiter';
+import { Limiter } from '../net/limiter';
 import type { LogLine, Model } from '../lab/model';
 
 /** Smallest time between two announcements, because speech takes time. */
@@ -43,20 +43,13 @@ export function roleWords(before: Model['hello'], now: Model['hello']): string |
 }
 
 /** Announces the newest text, at most once per second. A repeated text is announced again. */
-export function createAnnouncer(
-  say: (text: string) => void,
-  clock?: Clock,
-): (text: string) => void {
+export function createAnnouncer(say: (text: string) => void): (text: string) => void {
   let last = '';
-  const limiter = new Limiter<string>(
-    EVERY_MS,
-    (text) => {
-      // Screen readers read the region when its text changes.
-      last = text === last ? `${text}\u00a0` : text;
-      say(last);
-    },
-    clock,
-  );
+  const limiter = new Limiter<string>(EVERY_MS, (text) => {
+    // Screen readers read the region when its text changes.
+    last = text === last ? `${text}\u00a0` : text;
+    say(last);
+  });
   return (text) => {
     limiter.offer(text);
   };

@@ -14,20 +14,7 @@ import type { Parameters, SceneMessage } from '../net/protocol.gen';
 import type { Session, Trial } from './slices';
 import { ChoiceField, FlagField, NumberField } from '../ui/fields/fields';
 
-export interface Form {
-  /** The server's values with pending edits. */
-  readonly values: () => Parameters;
-  readonly defaults: () => Parameters;
-  readonly disabled: () => boolean;
-  /** Added policies that can be chosen. */
-  readonly policies: () => readonly string[];
-  /** Why a field has no effect now; undefined if it has an effect. */
-  readonly idle: (name: keyof Parameters) => string | undefined;
-  /** The value of a slider while the user moves it. */
-  readonly moving: () => Partial<Parameters>;
-  readonly move: (change: Partial<Parameters>) => void;
-  readonly edit: (change: Partial<Parameters>) => void;
-}
+export type Form = ReturnType<typeof createForm>;
 
 function NumberRow(props: { form: Form; field: NumberParameter; isChanged: boolean }): JSX.Element {
   const { form, field } = props;
@@ -111,22 +98,22 @@ export function FieldRow(props: { form: Form; field: Field }): JSX.Element {
 }
 
 /** A form for the parameters of a scene; all forms of the page share the edits. */
-export function createForm(lab: Session & Trial, scene: () => SceneMessage): Form {
+export function createForm(lab: Session & Trial, scene: () => SceneMessage) {
   return {
+    /** The server's values with pending edits. */
     values: () => lab.edits.values() ?? scene().parameters,
     defaults: () => scene().defaults,
     disabled: () => !lab.canOperate(),
+    /** Added policies that can be chosen. */
     policies: lab.catalog.addedPolicies,
-    idle: (name) =>
+    /** Why a field has no effect now; undefined if it has an effect. */
+    idle: (name: keyof Parameters) =>
       name === 'tool_orientation' && scene().positioner === 'planar_stage'
         ? 'The planar stage always holds the magnet upright.'
         : undefined,
+    /** The value of a slider while the user moves it. */
     moving: lab.edits.moving,
-    move: (change) => {
-      lab.edits.move(change);
-    },
-    edit: (change) => {
-      lab.edits.edit(change);
-    },
+    move: lab.edits.move,
+    edit: lab.edits.edit,
   };
 }

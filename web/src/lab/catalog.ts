@@ -19,17 +19,13 @@ export interface Catalog extends Lists {
 
 const NONE: readonly TrainingPoint[] = [];
 
-export interface CatalogFeed {
-  readonly catalog: Catalog;
-  /** Returns whether the message belongs to the catalogue. */
-  take(message: ServerMessage): boolean;
-}
+type ListMessage = Extract<ServerMessage, { type: 'catalog' | 'training_points' }>;
 
 /** `watch` asks the server. */
 export function createCatalog(
   connection: Accessor<Model['connection']>,
   watch: (training: string | null) => void,
-): CatalogFeed {
+): { readonly catalog: Catalog; take(message: ListMessage): void } {
   const [lists, setLists] = createSignal<{ readonly [N in Name]?: Items<N> }>({});
   const [watched, setWatched] = createSignal({ training: '', points: NONE });
   const list = <N extends Name>(name: N): Lists[N] => createMemo(() => lists()[name]) as Lists[N];
@@ -57,11 +53,10 @@ export function createCatalog(
     },
     take: (message) => {
       if (message.type === 'catalog') setLists({ ...lists(), [message.list]: message.items });
-      else if (message.type === 'training_points') {
+      else {
         const { training, first, points } = message;
         setWatched({ training, points: [...watched().points.slice(0, first), ...points] });
-      } else return false;
-      return true;
+      }
     },
   };
 }

@@ -1,5 +1,6 @@
 import { expect, it } from 'vitest';
-import { Commands, type Numbered } from './commands';
+import type { Numbered } from '../net/connection';
+import { Commands } from './commands';
 
 function open(isOpen = true) {
   const sent: Numbered[] = [];

@@ -1,6 +1,7 @@
 // Commands that wait for the server's answer.
 
-import type { ClientMessage, DoneMessage, RefusedMessage } from '../net/protocol.gen';
+import type { Numbered } from '../net/connection';
+import type { ClientMessage, RefusedMessage, ServerMessage } from '../net/protocol.gen';
 import type { Place } from './places';
 
 export type Answer =
@@ -11,13 +12,13 @@ export type Answer =
   /** The connection was lost: it may have been carried out. */
   | { readonly kind: 'unknown' };
 
+export type AnswerMessage = Extract<ServerMessage, { type: 'done' | 'refused' }>;
+
 /** Messages that are repeated or follow a hand. They carry no id and have no answer. */
 export type Streamed = Extract<
   ClientMessage,
   { type: 'drag' | 'release' | 'steer' | 'drive_robot' }
 >;
-
-export type Numbered = ClientMessage & { readonly id?: number };
 
 interface Waiting {
   readonly at: Place;
@@ -43,7 +44,7 @@ export class Commands {
     return this.waiting.get(id)?.at;
   }
 
-  answer(message: ({ type: 'done' } & DoneMessage) | ({ type: 'refused' } & RefusedMessage)): void {
+  answer(message: AnswerMessage): void {
     const one = this.waiting.get(message.id);
     this.waiting.delete(message.id);
     one?.settle(

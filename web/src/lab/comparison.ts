@@ -40,23 +40,12 @@ function continues(now: ComparisonMessage, before: ComparisonMessage): boolean {
   return now.trial === before.trial && now.tick === before.tick && before.running;
 }
 
-export interface Comparison {
-  readonly shown: Accessor<ComparisonMessage | undefined>;
-  /** The time at which the branches are shown. */
-  readonly tick: Accessor<number>;
-  readonly playing: Accessor<boolean>;
-  look(tick: number): void;
-  play(): void;
-  pause(): void;
-  /** The branches of this moment, until the next comparison is requested. */
-  hide(): void;
-  show(): void;
-}
+export type Comparison = ReturnType<typeof createComparison>;
 
 export function createComparison(
   newest: Accessor<ComparisonMessage | undefined>,
   tick_s: Accessor<number>,
-): Comparison {
+) {
   const [hidden, setHidden] = createSignal<Pick<ComparisonMessage, 'trial' | 'tick'>>();
   const [tick, setTick] = createSignal(0);
   const [playing, setPlaying] = createSignal(false);
@@ -103,14 +92,16 @@ export function createComparison(
 
   return {
     shown: comparison,
+    /** The time at which the branches are shown. */
     tick,
     playing,
-    look: (to) => {
+    look: (to: number) => {
       pause();
       setTick(to);
     },
     play,
     pause,
+    /** The branches of this moment, until the next comparison is requested. */
     hide: () => setHidden(newest()),
     show: () => setHidden(undefined),
   };

@@ -1,6 +1,6 @@
 // The challenge that is being played: its ghosts, and after the attempt what is said about it.
 
-import { createEffect, createMemo, createSignal, on, type Accessor } from 'solid-js';
+import { createEffect, createMemo, createSignal, on } from 'solid-js';
 import type {
   AttemptAnswer,
   AttemptQuery,
@@ -9,43 +9,25 @@ import type {
   ChallengeReport,
   Ghosts,
 } from '../net/protocol.gen';
+import { reasonText } from '../net/problem';
 import { get, post } from '../net/requests';
 import { sessionPath } from '../net/session';
-import type { Answer } from './commands';
+import type { Basis } from './basis';
 import { challengePath } from './challenges';
-import type { Session, Trial } from './slices';
-
-export interface Contest {
-  /** Name of the challenge; undefined if none is being played. */
-  readonly name: Accessor<string | undefined>;
-  readonly attempt: Accessor<AttemptStanding | undefined>;
-  /** Rules and board. */
-  readonly challenge: Accessor<ChallengeReport | undefined>;
-  readonly ghosts: Accessor<Ghosts | undefined>;
-  /** About the attempt that has ended. */
-  readonly report: Accessor<AttemptReport | undefined>;
-  /** What the server said about the attempt that was sent. */
-  readonly answer: Accessor<AttemptAnswer | undefined>;
-  /** Why the newest request has no answer. */
-  readonly error: Accessor<string | undefined>;
-  play(name: string): Promise<Answer>;
-  /** Puts the attempt on the board. Throws a refusal. */
-  sign(player: string, group: string): Promise<void>;
-}
 
 export const isOver = (attempt: AttemptStanding | undefined): boolean =>
   attempt !== undefined && (attempt.is_delivered || attempt.is_time_up);
 
 /** An attempt that runs and counts: a stray key must not end it. */
-export const isAtStake = ({ state }: Pick<Trial, 'state'>): boolean => {
+export const isAtStake = ({ state }: Pick<Basis, 'state'>): boolean => {
   const now = state();
   const attempt = now?.attempt ?? undefined;
   return attempt?.void === null && !isOver(attempt) && now?.running === true;
 };
 
-type Reads = Pick<Session, 'session' | 'send' | 'hello'> & Pick<Trial, 'scene' | 'state'>;
+export type Contest = ReturnType<typeof createContest>;
 
-export function createContest(lab: Reads): Contest {
+export function createContest(lab: Basis) {
   const name = createMemo(() => lab.scene()?.challenge ?? undefined);
   const attempt = createMemo(() => lab.state()?.attempt ?? undefined);
   const [challenge, setChallenge] = createSignal<ChallengeReport>();
@@ -61,7 +43,7 @@ export function createContest(lab: Reads): Contest {
       const data = await asking;
       if (key() === asked) store(data);
     } catch (reason) {
-      if (key() === asked) setError(reason instanceof Error ? reason.message : String(reason));
+      if (key() === asked) setError(reasonText(reason));
     }
   };
   const loadBoard = async (of: string): Promise<void> => {
@@ -90,15 +72,21 @@ export function createContest(lab: Reads): Contest {
     }),
   );
   return {
+    /** Name of the challenge; undefined if none is being played. */
     name,
     attempt,
+    /** Rules and board. */
     challenge,
     ghosts,
+    /** About the attempt that has ended. */
     report,
+    /** What the server said about the attempt that was sent. */
     answer,
+    /** Why the newest request has no answer. */
     error,
-    play: (challenge) => lab.send('playback', { type: 'play_challenge', challenge }),
-    sign: async (player, group) => {
+    play: (challenge: string) => lab.send('playback', { type: 'play_challenge', challenge }),
+    /** Puts the attempt on the board. Throws a refusal. */
+    sign: async (player: string, group: string) => {
       const [of, ended, seat] = [name(), report()?.attempt, lab.hello()?.seat];
       if (of === undefined || !ended || seat === undefined) return;
       const query: AttemptQuery = {

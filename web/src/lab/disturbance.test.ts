@@ -68,7 +68,6 @@ describe('a restart', () => {
       type: 'load_scenario',
       map: 'colon',
       controller: 'errt',
-      positioner: 'arm',
       seed: 1,
       start_m: [0.1, -0.3],
       goal_m: [0.2, -0.4],

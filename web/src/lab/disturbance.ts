@@ -1,11 +1,12 @@
 // The operator's disturbances besides dragging the bead: now or by script. Pure.
 
 import { clock, fixed } from '../ui/format';
+import { place } from '../words/facts';
+import { type Experiment, experimentOf, loadMessage } from './experimentLink';
 import type {
   ClientMessage,
   Disturbance,
   SceneMessage,
-  Scripted,
   StateMessage,
   When,
 } from '../net/protocol.gen';
@@ -76,8 +77,6 @@ export function blind(for_s: number): Disturbance {
   return { dropout: { for_s } };
 }
 
-const place = (x_m: number, y_m: number): string => `(${fixed(x_m, 3)}, ${fixed(y_m, 3)}) m`;
-
 const ARROWS = ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'];
 
 /** The nearest of eight arrows. */
@@ -113,22 +112,9 @@ export function describeWhen(at: When, tick_s: number): string {
 export function restart(
   scene: SceneMessage,
   state: StateMessage,
-  change: { readonly script?: readonly Scripted[]; readonly disturbances?: number },
-): Extract<ClientMessage, { type: 'load_scenario' }> {
-  const { scenario } = scene;
-  const goal_m: [number, number] | null = state.goal_m
-    ? [state.goal_m[0], state.goal_m[1]]
-    : scenario.goal_m;
-  return {
-    type: 'load_scenario',
-    map: scene.map,
-    controller: state.controller,
-    positioner: scene.positioner,
-    seed: scene.seed,
-    ...(scenario.start_m && { start_m: scenario.start_m }),
-    ...(goal_m && { goal_m }),
-    parameters: scene.parameters,
-    disturbances: change.disturbances ?? scenario.disturbances,
-    script: [...(change.script ?? scenario.script)],
-  };
+  change: Partial<Pick<Experiment, 'script' | 'disturbances'>>,
+): ClientMessage {
+  const goal_m = state.goal_m ?? scene.scenario.goal_m;
+  const now = experimentOf(scene, { controller: state.controller, goal_m });
+  return loadMessage({ ...now, ...change }, scene.defaults);
 }

@@ -1,8 +1,7 @@
 // A map's drawing in an experiment link, so that the link works on a server that does not have the map.
 
 import { MAX_SVG_BYTES, SHIPPED_MAPS } from '../net/protocol.gen';
-import { getText } from '../net/requests';
-import { addMap } from './maps';
+import { addMap, svgOf } from './maps';
 
 /** Longer links are cut by some programs. */
 const MOST_CHARACTERS = 4000;
@@ -50,7 +49,7 @@ export interface DrawingForLink {
 
 export async function drawingForLink(map: string): Promise<DrawingForLink> {
   if (SHIPPED_MAPS.includes(map)) return {};
-  const svg = await getText(`/api/maps/${encodeURIComponent(map)}`).catch(() => undefined);
+  const svg = await svgOf(map).catch(() => undefined);
   if (svg === undefined)
     return { remark: 'This server no longer has the map, so it cannot load it.' };
   const text = await packed(svg);
@@ -69,7 +68,7 @@ export async function drawnMap(
   const added = maps.filter((map) => !SHIPPED_MAPS.includes(map));
   // Most likely the one of the same name.
   for (const map of added.toSorted((a, b) => Number(b === wished) - Number(a === wished))) {
-    const other = await getText(`/api/maps/${encodeURIComponent(map)}`).catch(() => undefined);
+    const other = await svgOf(map).catch(() => undefined);
     if (other === svg) return map;
   }
   return (await addMap(new File([svg], `${wished}.svg`))).name;

@@ -1,25 +1,11 @@
 // Pending changes of the parameters, shared by all forms of the page.
 
-import { createEffect, createMemo, createSignal, type Accessor } from 'solid-js';
+import { createEffect, createMemo, createSignal } from 'solid-js';
 import type { Parameters } from '../net/protocol.gen';
 import { createPending } from '../ui/pending';
 import { withFollowers } from './parameters';
-import type { Session, Trial } from './slices';
+import type { Basis } from './basis';
 
-export interface Edits {
-  /** The server's values with pending edits. */
-  readonly values: Accessor<Parameters | undefined>;
-  /** The same with the value of a moving slider. */
-  readonly shown: Accessor<Parameters | undefined>;
-  /** The value of a moving slider, which is not sent. */
-  readonly moving: Accessor<Partial<Parameters>>;
-  readonly isPending: (name: keyof Parameters) => boolean;
-  move(change: Partial<Parameters>): void;
-  /** Sends a change. */
-  edit(change: Partial<Parameters>): void;
-}
-
-type Reads = Pick<Session, 'canOperate' | 'send'> & Pick<Trial, 'scene'>;
 type Change = Readonly<Partial<Parameters>>;
 
 /** What a newer change has beyond one that was answered. */
@@ -30,7 +16,9 @@ function beyond(wanted: Change, sent: Change): Change | undefined {
   return left.length > 0 ? Object.fromEntries(left) : undefined;
 }
 
-export function createEdits(lab: Reads): Edits {
+export type Edits = ReturnType<typeof createEdits>;
+
+export function createEdits(lab: Basis) {
   const [moving, setMoving] = createSignal<Change>({});
   const truth = createMemo(() => lab.scene()?.parameters);
   const none: Change = {};
@@ -53,15 +41,20 @@ export function createEdits(lab: Reads): Edits {
     return now && { ...now, ...edits.value() };
   });
   return {
+    /** The server's values with pending edits. */
     values,
+    /** The same with the value of a moving slider. */
     shown: createMemo(() => {
       const now = values();
       return now && { ...now, ...moving() };
     }),
+    /** The value of a moving slider, which is not sent. */
     moving,
-    isPending: (name) => name in edits.value(),
-    move: setMoving,
-    edit: (change) => {
+    move: (change: Change) => {
+      setMoving(change);
+    },
+    /** Sends a change. */
+    edit: (change: Change) => {
       const now = values();
       if (!now) return;
       setMoving({});

@@ -4,7 +4,6 @@ import {
   experimentFrom,
   experimentOf,
   type Known,
-  linkAsSetUp,
   linkOf,
   linkText,
   loadMessage,
@@ -162,15 +161,6 @@ describe('a link', () => {
     // A goal from the scenario is not rounded.
     scene.scenario.goal_m = [0.123456789, -0.3000001];
     expect(experimentOf(scene, stateAt(5, { goal_m })).goal_m).toEqual([0.123456789, -0.3000001]);
-    expect(linkAsSetUp(scene)).toContain('&goal=0.123456789,-0.3000001&');
-  });
-
-  it('can be written as it was set up, without later changes', () => {
-    const scene = sceneOf('posts');
-    const before = linkAsSetUp(scene);
-    scene.parameters = { ...scene.parameters, friction: 0.3 };
-    expect(linkAsSetUp(scene)).toBe(before);
-    expect(linkOf(scene, stateAt(1))).toBe(`${before}&friction=0.3`);
   });
 
   it('becomes the command that loads it', () => {

@@ -132,12 +132,6 @@ export function linkOf(scene: SceneMessage, state: Chosen): string {
   return linkText(experimentOf(scene, state), scene.defaults);
 }
 
-/** The link of the trial as it was set up, without later changes. */
-export function linkAsSetUp(scene: SceneMessage): string {
-  const { controller, parameters, goal_m } = scene.scenario;
-  return linkOf({ ...scene, parameters }, { controller, goal_m });
-}
-
 function oneOf<T extends string>(field: string, value: string, known: readonly T[]): T {
   const found = known.find((name) => name === value);
   return found ?? refuse(field, value, `one of ${known.join(', ')}`);

@@ -54,29 +54,38 @@ function isForeign({ controller, map, trainedOn }: Attempt): boolean {
   return controller === 'rl' && trainedOn !== undefined && !trainedOn.includes(map);
 }
 
+/** What stopped an attempt, other than the number of its steps, and what the operator can do in the workspace. */
+const STOPS = {
+  settle: {
+    cause: () => 'The tool reached the goal, but the bead did not follow within 5 s.',
+    advice: 'Choose another goal, or drag the bead to this one.',
+  },
+  walled_off: {
+    cause: (name: string) => troubleWords(name, { code: 'walled_off' }),
+    advice: 'Choose another goal.',
+  },
+  tracker_lost: {
+    cause: () => 'The tracker was lost for too long.',
+    advice: 'Choose another goal when the tracker reports the bead again.',
+  },
+  leg_steps: undefined,
+  goal_steps: undefined,
+} as const;
+
 /** The cause in one to three sentences. */
 export function causeOf(attempt: Attempt): string {
   const { controller, end, trouble } = attempt;
   const name = CONTROLLER_LABELS[controller];
   if (end.code !== 'stopped') return 'The magnet lifted the bead off the table.';
-  switch (end.by) {
-    // What troubled the controller before is over.
-    case 'settle':
-      return 'The tool reached the goal, but the bead did not follow within 5 s.';
-    case 'walled_off':
-      return troubleWords(name, { code: 'walled_off' });
-    case 'tracker_lost':
-      return 'The tracker was lost for too long.';
-    case 'leg_steps':
-    case 'goal_steps': {
-      const sentences =
-        trouble === null
-          ? [`${name} ${phaseWords(end)}.`]
-          : [troubleWords(name, trouble), `It ${phaseWords(end)}.`];
-      if (isForeign(attempt)) sentences.push('It was not trained on this map.');
-      return sentences.join(' ');
-    }
-  }
+  // What troubled the controller before is over.
+  const stop = STOPS[end.by];
+  if (stop) return stop.cause(name);
+  const sentences =
+    trouble === null
+      ? [`${name} ${phaseWords(end)}.`]
+      : [troubleWords(name, trouble), `It ${phaseWords(end)}.`];
+  if (isForeign(attempt)) sentences.push('It was not trained on this map.');
+  return sentences.join(' ');
 }
 
 /** The cause of an event that ended an attempt without a delivery. */
@@ -104,18 +113,6 @@ export function betterController(attempt: Attempt): ControllerName | undefined {
 /** Whether only a reset can help. */
 export const needsReset = ({ end }: Attempt): boolean => end.code === 'lifted_off';
 
-/** What the operator can do in the workspace, where no button can help. */
-export function adviceOf({ end }: Attempt): string | undefined {
-  if (end.code !== 'stopped') return undefined;
-  switch (end.by) {
-    case 'settle':
-      return 'Choose another goal, or drag the bead to this one.';
-    case 'tracker_lost':
-      return 'Choose another goal when the tracker reports the bead again.';
-    case 'walled_off':
-      return 'Choose another goal.';
-    case 'leg_steps':
-    case 'goal_steps':
-      return undefined;
-  }
-}
+/** What the operator can do where no button can help. */
+export const adviceOf = ({ end }: Attempt): string | undefined =>
+  end.code === 'stopped' ? STOPS[end.by]?.advice : undefined;

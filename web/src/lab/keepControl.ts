@@ -8,35 +8,32 @@ const SEAT_KEY = 'ferry.seat';
 /** The old connection is closed within this time. */
 const RETAKE_MS = 10_000;
 
-export interface Keeper {
-  /** Whether the connection is new and control that this page had before may come back, or just has. */
-  isReturning(): boolean;
-  opened(): void;
-  hello(message: Pick<Hello, 'role' | 'operator_present' | 'seat'>): void;
-  /** Key of the seat that this page had before. */
-  seat(): string | undefined;
-}
-
 /** `tab` is the storage of the browser's tab. */
 export function createKeeper(
   session: string,
   tab: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>,
   take: () => void,
   now_ms: () => number = Date.now,
-): Keeper {
+) {
   let isOperator = false;
   let hasAsked = false;
   let until_ms = 0;
   const isReturning = (): boolean => now_ms() < until_ms;
   return {
+    /** Whether the connection is new and control that this page had before may come back, or just has. */
     isReturning,
+    /** Key of the seat that this page had before. */
     seat: () => tab.getItem(SEAT_KEY) ?? undefined,
     opened: () => {
       isOperator = false;
       hasAsked = false;
       until_ms = tab.getItem(KEY) === session ? now_ms() + RETAKE_MS : 0;
     },
-    hello: ({ role, operator_present, seat }) => {
+    hello: ({
+      role,
+      operator_present,
+      seat,
+    }: Pick<Hello, 'role' | 'operator_present' | 'seat'>) => {
       tab.setItem(SEAT_KEY, seat);
       if (role === 'operator') {
         isOperator = true;

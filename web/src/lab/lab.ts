@@ -8,11 +8,11 @@ import {
   BINARY_OBSERVATION,
   type ClientMessage,
   type EventMessage,
-  type ServerMessage,
 } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
-import { type Answer, Commands, type Streamed } from './commands';
 import { createAddress } from './address';
+import type { Basis } from './basis';
+import { type Answer, Commands } from './commands';
 import { createCatalog } from './catalog';
 import { createComparison } from './comparison';
 import { createContest } from './contest';
@@ -30,11 +30,6 @@ import { createSteering } from './steering';
 import { createWalls } from './walls';
 import { tabStorage } from '../ui/storage';
 import { pathOf } from '../net/base';
-
-type AnswerMessage = Extract<ServerMessage, { type: 'done' | 'refused' }>;
-
-const isAnswer = (message: ServerMessage): message is AnswerMessage =>
-  message.type === 'done' || message.type === 'refused';
 
 export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
@@ -66,19 +61,14 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
     remember(before, after);
     batch(() => {
       setModel(after);
-      const newCamera = pictures.get(BINARY_CAMERA_JPEG);
-      if (newCamera) setCamera(newCamera);
-      const newObservation = pictures.get(BINARY_OBSERVATION);
-      if (newObservation) setObservation(newObservation);
+      setCamera((before) => pictures.get(BINARY_CAMERA_JPEG) ?? before);
+      setObservation((before) => pictures.get(BINARY_OBSERVATION) ?? before);
       pictures.clear();
     });
     // What they answer is shown now.
     for (const input of inputs) {
-      if (input.type === 'connection') {
-        if (input.connection.kind !== 'live') commands.lose();
-      } else if (input.type === 'message' && isAnswer(input.message)) {
-        commands.answer(input.message);
-      }
+      if (input.type === 'connection' && input.connection.kind !== 'live') commands.lose();
+      else if (input.type === 'answer') commands.answer(input.answer);
     }
     if (!inbox.isEmpty) schedule();
   };
@@ -114,12 +104,19 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
         take({ type: 'notice', place: 'session', text: why });
       },
       message: (message) => {
-        if (message.type === 'hello') keeper.hello(message);
-        if (message.type === 'refused') {
-          const place = commands.placeOf(message.id);
-          if (place) take({ type: 'refused', place, refusal: message });
+        switch (message.type) {
+          case 'done':
+          case 'refused':
+            take({ type: 'answer', place: commands.placeOf(message.id), answer: message });
+            break;
+          case 'catalog':
+          case 'training_points':
+            feed.take(message);
+            break;
+          default:
+            if (message.type === 'hello') keeper.hello(message);
+            take({ type: 'message', message });
         }
-        if (!feed.take(message)) take({ type: 'message', message });
       },
       picture: (picture) => {
         pictures.set(picture.kind, picture);
@@ -148,45 +145,43 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
     if (message.type === 'fork') comparison.show();
     return commands.send(at, message);
   };
-  // Sent blindly: a lost connection has released the bead already.
-  const stream = (message: Streamed): void => {
-    socket.send(message);
+  const basis: Basis = {
+    session: name,
+    connection,
+    hello,
+    scene,
+    state,
+    canOperate,
+    send,
+    // Sent blindly: a lost connection has released the bead already.
+    stream: (message) => {
+      socket.send(message);
+    },
+    notify: (place, text) => {
+      take({ type: 'notice', place, text });
+    },
   };
   const comparison = createComparison(part('comparison'), () => scene()?.tick_s ?? Infinity);
   const [sight, setSight] = createSignal<Sight>('all');
-  const steering = createSteering({ scene, state, canOperate, stream });
   // The choice belongs to the controller You: with another one, the page has no way back.
   createEffect(() => {
     if (state()?.controller !== 'you') setSight('all');
   });
-  const notify: Lab['notify'] = (place, text) => {
-    take({ type: 'notice', place, text });
-  };
-  const edits = createEdits({ scene, canOperate, send });
   return {
-    session: name,
+    ...basis,
     address: createAddress(page),
-    connection,
-    hello,
     ended,
-    canOperate,
     isReturning: () => keeper.isReturning(),
-    send,
-    stream,
     catalog: feed.catalog,
-    scene,
-    state,
     goal: createGoal(state),
     history,
-    tuning: edits.shown,
-    edits,
+    edits: createEdits(basis),
     silences: part('silences'),
     log: part('log'),
     marks: part('marks'),
     inspected,
     inspect: setInspected,
     notices: part('notices'),
-    notify,
     dismiss: (place, id) => {
       take({ type: 'dismiss', place, id });
     },
@@ -194,9 +189,9 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
     observation,
     overlay: part('overlay'),
     obstacleMap: part('obstacleMap'),
-    movedWalls: createWalls({ session: name, connection, scene, state, notify }),
-    steering,
-    contest: createContest({ session: name, hello, scene, state, send }),
+    movedWalls: createWalls(basis),
+    steering: createSteering(basis),
+    contest: createContest(basis),
     sight,
     setSight,
     comparison,

@@ -72,10 +72,12 @@ export function checkOf(svg: string): Promise<MapCheck> {
   return post<MapCheck>('/api/map-checks', svg, 'image/svg+xml');
 }
 
+/** The drawing of a map of the server; throws an error with the message to show. */
+export const svgOf = (map: string): Promise<string> =>
+  getText(`/api/maps/${encodeURIComponent(map)}`);
+
 /** The walls and the size of a map of the server; throws an error with the message to show. */
-export async function checkOfMap(map: string): Promise<MapCheck> {
-  return checkOf(await getText(`/api/maps/${encodeURIComponent(map)}`));
-}
+export const checkOfMap = async (map: string): Promise<MapCheck> => checkOf(await svgOf(map));
 
 /**
  * Returns what the server says about the new map; throws an error with the message to show. `fit` moves the drawing into

@@ -1,11 +1,11 @@
 import { describe, expect, it } from 'vitest';
 import type { Place } from './places';
-import { EMPTY, type Input, LOG_LINES, type Model, reduce } from './model';
-import { type EventMessage, PROTOCOL_VERSION, type ServerMessage } from '../net/protocol.gen';
+import { EMPTY, type Input, LOG_LINES, type Model, type ModelMessage, reduce } from './model';
+import { type EventMessage, PROTOCOL_VERSION } from '../net/protocol.gen';
 import { comparisonOf, sceneOf, stateAt } from './testing';
 import { eventAt } from './testingFacts';
 
-const message = (one: ServerMessage): Input => ({ type: 'message', message: one });
+const message = (one: ModelMessage): Input => ({ type: 'message', message: one });
 const scene = (map = 'posts', trial = 0): Input =>
   message({ type: 'scene', ...sceneOf(map, trial) });
 const state = (tick: number): Input => message({ type: 'state', ...stateAt(tick) });
@@ -148,9 +148,9 @@ describe('the log', () => {
 
 describe('a refusal', () => {
   const refused = (place: Place): Input => ({
-    type: 'refused',
+    type: 'answer',
     place,
-    refusal: { id: 1, code: 'in_wall', field: 'x_m', values: {}, detail: 'In a wall.' },
+    answer: { type: 'refused', id: 1, code: 'in_wall', values: {}, detail: 'In a wall.' },
   });
   const sent = (place: Place): Input => ({ type: 'sent', place });
 

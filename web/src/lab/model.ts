@@ -7,7 +7,6 @@ import {
   type Hello,
   type OverlayMessage,
   PROTOCOL_VERSION,
-  type RefusedMessage,
   type SceneMessage,
   type SeenMessage,
   type ServerMessage,
@@ -16,6 +15,7 @@ import {
 import type { Notice } from '../ui/NoticeBar';
 import { eventWords } from '../words/events';
 import { refusalWords } from '../words/refusals';
+import type { AnswerMessage } from './commands';
 import { isSameEvent } from './eventStory';
 import type { Place } from './places';
 import { restartText } from './restart';
@@ -63,11 +63,18 @@ export interface Model {
   readonly nextId: number;
 }
 
+/** The lists have a place of their own. */
+export type ModelMessage = Exclude<
+  ServerMessage,
+  AnswerMessage | { type: 'catalog' | 'training_points' }
+>;
+
 export type Input =
   | { readonly type: 'connection'; readonly connection: ConnectionState }
-  | { readonly type: 'message'; readonly message: ServerMessage }
+  | { readonly type: 'message'; readonly message: ModelMessage }
   | { readonly type: 'sent'; readonly place: Place }
-  | { readonly type: 'refused'; readonly place: Place; readonly refusal: RefusedMessage }
+  /** The place that the command was sent from. */
+  | { readonly type: 'answer'; readonly place: Place | undefined; readonly answer: AnswerMessage }
   | { readonly type: 'notice'; readonly place: Place; readonly text: string }
   | { readonly type: 'dismiss'; readonly place: Place; readonly id: number };
 
@@ -151,7 +158,7 @@ function withState(model: Model, state: StateMessage): Model {
   return restarted === undefined ? next : withNotice(next, 'playback', 'hint', restarted);
 }
 
-function withMessage(model: Model, message: ServerMessage): Model {
+function withMessage(model: Model, message: ModelMessage): Model {
   switch (message.type) {
     case 'hello': {
       const next: Model = {
@@ -198,12 +205,6 @@ function withMessage(model: Model, message: ServerMessage): Model {
       if (message.again) return marked;
       return withLine(marked, message.kind, eventWords(message.what), message.sim_time_s, message);
     }
-    // For the page's commands and lists.
-    case 'catalog':
-    case 'training_points':
-    case 'done':
-    case 'refused':
-      return model;
     case 'comparison':
       return message.trial === model.scene?.trial ? { ...model, comparison: message } : model;
     // What a hand does has no id.
@@ -227,8 +228,10 @@ export function reduce(model: Model, input: Input): Model {
     // A new attempt: drop the notice of the last one.
     case 'sent':
       return withoutNotice(model, input.place);
-    case 'refused':
-      return withError(model, input.place, refusalWords(input.refusal));
+    case 'answer':
+      return input.place && input.answer.type === 'refused'
+        ? withError(model, input.place, refusalWords(input.answer))
+        : model;
     case 'notice':
       return withNotice(model, input.place, 'hint', input.text);
     case 'dismiss':

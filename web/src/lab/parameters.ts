@@ -7,6 +7,7 @@ import {
   type ControllerName,
   type Parameters,
 } from '../net/protocol.gen';
+import type { Option } from '../ui/fields/fields';
 import { shownName } from '../ui/name';
 
 export { CONTROLLER_LABELS, CONTROLLERS };
@@ -42,11 +43,14 @@ type FlagName = {
 }[keyof Parameters];
 type ChoiceName = Exclude<keyof Parameters, NumberName | FlagName | 'rl_policy'>;
 
-export interface NumberField {
-  readonly kind: 'number';
-  readonly name: NumberName;
+interface FieldBase {
   readonly label: string;
   readonly help: string;
+}
+
+export interface NumberField extends FieldBase {
+  readonly kind: 'number';
+  readonly name: NumberName;
   readonly unit: string;
   /** Shown value = stored value × scale. */
   readonly scale: number;
@@ -63,28 +67,22 @@ export interface NumberField {
   };
 }
 
-export interface ChoiceField {
+interface ChoiceField extends FieldBase {
   readonly kind: 'choice';
   readonly name: ChoiceName;
-  readonly label: string;
-  readonly help: string;
-  readonly options: readonly (readonly [value: string, label: string])[];
+  readonly options: readonly Option[];
 }
 
 /** One of the shipped policies, or an added one. */
-export interface PolicyField {
+export interface PolicyField extends FieldBase {
   readonly kind: 'policy';
   readonly name: 'rl_policy';
-  readonly label: string;
-  readonly help: string;
-  readonly options: readonly (readonly [value: string, label: string])[];
+  readonly options: readonly Option[];
 }
 
-export interface FlagField {
+interface FlagField extends FieldBase {
   readonly kind: 'flag';
   readonly name: FlagName;
-  readonly label: string;
-  readonly help: string;
 }
 
 export type Field = NumberField | ChoiceField | PolicyField | FlagField;
@@ -97,7 +95,7 @@ export function policyOptions(
   { options }: PolicyField,
   added: readonly string[],
   value: string,
-): readonly (readonly [value: string, label: string])[] {
+): readonly Option[] {
   const known = [...options, ...added.map((one) => [one, policyName(one)] as const)];
   return known.some(([one]) => one === value)
     ? known

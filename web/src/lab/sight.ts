@@ -1,7 +1,8 @@
 // How much of the table the page shows.
 
+import type { Accessor } from 'solid-js';
 import type { Polygon } from '../net/protocol.gen';
-import type { ByHand, Trial } from './slices';
+import type { Basis } from './basis';
 
 export const SIGHTS = [
   ['all', 'Everything', 'The whole table, as an onlooker sees it.'],
@@ -17,5 +18,5 @@ export type Sight = (typeof SIGHTS)[number][0];
 
 /** The walls of pictures that have no fog. */
 export const shownWalls = (
-  lab: Pick<Trial, 'scene'> & Pick<ByHand, 'sight'>,
+  lab: Pick<Basis, 'scene'> & { readonly sight: Accessor<Sight> },
 ): readonly Polygon[] => (lab.sight() === 'all' ? (lab.scene()?.walls ?? []) : []);

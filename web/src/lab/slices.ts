@@ -2,9 +2,9 @@
 
 import type { Accessor } from 'solid-js';
 import type { Picture } from '../net/connection';
-import type { ClientMessage, EndFact, EventMessage, Parameters } from '../net/protocol.gen';
+import type { EndFact, EventMessage } from '../net/protocol.gen';
 import type { Address } from './address';
-import type { Answer, Streamed } from './commands';
+import type { Basis } from './basis';
 import type { Catalog } from './catalog';
 import type { Comparison } from './comparison';
 import type { Contest } from './contest';
@@ -21,31 +21,21 @@ import type { Steering } from './steering';
 export type { Layers };
 
 /** The session of this page, and what may be sent to it. */
-export interface Session {
-  readonly session: string;
-  readonly connection: Accessor<Model['connection']>;
-  readonly hello: Accessor<Model['hello']>;
+export interface Session extends Pick<
+  Basis,
+  'session' | 'connection' | 'hello' | 'canOperate' | 'send' | 'stream'
+> {
   /** Why the session ended, if it has. */
   readonly ended: Accessor<EndFact | undefined>;
-  /** Connected as the operator of a session that has not ended. */
-  readonly canOperate: Accessor<boolean>;
   /** Whether the connection is new and the control that this page had before comes back. */
   isReturning(): boolean;
-  /** Sends a command. The answer comes after its effect is shown; a refusal is shown at the place. */
-  send(at: Place, message: ClientMessage): Promise<Answer>;
-  /** Sends what a hand does, which has no answer. */
-  stream(message: Streamed): void;
   /** The lists of the server. */
   readonly catalog: Catalog;
 }
 
-export interface Trial {
-  readonly scene: Accessor<Model['scene']>;
-  readonly state: Accessor<Model['state']>;
+export interface Trial extends Pick<Basis, 'scene' | 'state'> {
   readonly goal: Accessor<Vec2 | undefined>;
   readonly history: History;
-  /** The server's parameters with pending changes. */
-  readonly tuning: Accessor<Parameters | undefined>;
   readonly edits: Edits;
   /** Grows when the server has released a bead because it received nothing from the hand. */
   readonly silences: Accessor<number>;
@@ -59,9 +49,8 @@ export interface Events {
   inspect(event: EventMessage | undefined): void;
 }
 
-export interface Notices {
+export interface Notices extends Pick<Basis, 'notify'> {
   readonly notices: Accessor<Model['notices']>;
-  notify(place: Place, text: string): void;
   dismiss(place: Place, id: number): void;
 }
 

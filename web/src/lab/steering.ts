@@ -1,9 +1,9 @@
 // The tool in the user's hand, with the controller You: pointer, keys and gamepad point it to places.
 
-import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
+import { createEffect, createMemo, createSignal, on, onCleanup } from 'solid-js';
 import { Limiter } from '../net/limiter';
 import { clampToRect, type Vec2 } from './geometry';
-import type { Session, Trial } from './slices';
+import type { Basis } from './basis';
 
 const MOST_PER_S = 60;
 /** A direction points this far ahead of the tool: at full speed it gets there in .6 s. */
@@ -11,21 +11,6 @@ const LEAD_M = 0.025;
 const LEAN_MS = 50;
 
 export type Device = 'keys' | 'gamepad';
-
-export interface Steering {
-  /** Whether the hand steers: the controller is You, and this browser operates. */
-  readonly isActive: Accessor<boolean>;
-  /** Where this browser points; undefined if it does not. */
-  readonly target: Accessor<Vec2 | undefined>;
-  /** Whether the hand also steers while sub-controller 1 is active. */
-  readonly approach: Accessor<boolean>;
-  setApproach(on: boolean): void;
-  point(at: Vec2): void;
-  /** A direction on the table with a length of at most 1; 0 stops the tool. */
-  lean(device: Device, direction: Vec2): void;
-  /** Stops the tool where it is. */
-  hold(): void;
-}
 
 /** The sum of all devices, with a length of at most 1. */
 export function joined(directions: Iterable<Vec2>): Vec2 {
@@ -35,9 +20,9 @@ export function joined(directions: Iterable<Vec2>): Vec2 {
   return length > 1 ? [x / length, y / length] : [x, y];
 }
 
-type Reads = Pick<Trial, 'scene' | 'state'> & Pick<Session, 'canOperate' | 'stream'>;
+export type Steering = ReturnType<typeof createSteering>;
 
-export function createSteering(lab: Reads): Steering {
+export function createSteering(lab: Pick<Basis, 'scene' | 'state' | 'canOperate' | 'stream'>) {
   const [target, setTarget] = createSignal<Vec2>();
   const [approach, setApproach] = createSignal(false);
   const leans = new Map<Device, Vec2>();
@@ -74,20 +59,24 @@ export function createSteering(lab: Reads): Steering {
   createEffect(on([isActive, lab.scene], forget));
   onCleanup(stop);
   return {
+    /** Whether the hand steers: the controller is You, and this browser operates. */
     isActive,
+    /** Where this browser points; undefined if it does not. */
     target,
+    /** Whether the hand also steers while sub-controller 1 is active. */
     approach,
-    setApproach: (isOn) => {
+    setApproach: (isOn: boolean) => {
       setApproach(isOn);
       const at = target();
       if (at) point(at);
     },
-    point: (at) => {
+    point: (at: Vec2) => {
       leans.clear();
       stop();
       point(at);
     },
-    lean: (device, direction) => {
+    /** A direction on the table with a length of at most 1; 0 stops the tool. */
+    lean: (device: Device, direction: Vec2) => {
       const before = leans.get(device) ?? [0, 0];
       if (!isActive() || (before[0] === direction[0] && before[1] === direction[1])) return;
       leans.set(device, direction);
@@ -96,6 +85,7 @@ export function createSteering(lab: Reads): Steering {
       if (x === 0 && y === 0) stop();
       else timer ??= setInterval(ahead, LEAN_MS);
     },
+    /** Stops the tool where it is. */
     hold: () => {
       leans.clear();
       stop();

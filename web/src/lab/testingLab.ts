@@ -18,7 +18,7 @@ import {
   type ServerMessage,
   type StateMessage,
 } from '../net/protocol.gen';
-import type { Numbered } from './commands';
+import type { Numbered } from '../net/connection';
 import { createLab } from './lab';
 import type { KnownLayer } from './layers';
 import type { Lab } from './slices';

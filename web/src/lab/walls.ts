@@ -2,21 +2,18 @@
 
 import { createEffect, createMemo, createSignal, untrack, type Accessor } from 'solid-js';
 import type { Lumen } from '../net/protocol.gen';
+import { reasonText } from '../net/problem';
 import { get } from '../net/requests';
 import { sessionPath } from '../net/session';
 import { MovedWalls } from './movedWalls';
-import type { Notices, Session, Trial } from './slices';
-
-type Known = Pick<Session, 'session' | 'connection'> &
-  Pick<Trial, 'scene' | 'state'> &
-  Pick<Notices, 'notify'>;
+import type { Basis } from './basis';
 
 /**
  * The walls where they are now; undefined while they are at rest. It is the same object that has moved, and it changes
  * when that is visible.
  */
 export function createWalls(
-  lab: Known,
+  lab: Pick<Basis, 'session' | 'connection' | 'scene' | 'state' | 'notify'>,
   request: (path: string) => Promise<Lumen> = get,
 ): Accessor<MovedWalls | undefined> {
   const [walls, setWalls] = createSignal<MovedWalls>();
@@ -29,8 +26,7 @@ export function createWalls(
       if (number === requests) setWalls(new MovedWalls(lumen));
     } catch (reason) {
       if (number !== requests) return;
-      const why = reason instanceof Error ? reason.message : String(reason);
-      lab.notify('workspace', `The moving walls cannot be drawn: ${why}`);
+      lab.notify('workspace', `The moving walls cannot be drawn: ${reasonText(reason)}`);
     }
   };
   // A request that failed is repeated when the walls move again after a rest, or after a lost connection.

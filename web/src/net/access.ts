@@ -1,7 +1,7 @@
 // Whether the login is still valid. A login can expire; the next request shows it.
 
 import { createSignal } from 'solid-js';
-import { problemText } from './problem';
+import { problemOf } from './problem';
 import { addressOf } from './base';
 
 const NO_LOGIN = 401;
@@ -14,15 +14,9 @@ export { loggedOut };
 export async function openPage(
   path: string,
 ): Promise<{ readonly isOpen: boolean; readonly why?: string | undefined }> {
-  try {
-    const response = await askServer(path, { cache: 'no-store' });
-    if (response.ok) return { isOpen: true };
-    const problem: unknown = await response.json();
-    return { isOpen: false, why: problemText(problem) };
-  } catch {
-    // No connection, or the answer is not a problem document: show the login.
-    return { isOpen: false };
-  }
+  const response = await askServer(path, { cache: 'no-store' }).catch(() => undefined);
+  if (response?.ok) return { isOpen: true };
+  return { isOpen: false, why: response && (await problemOf(response)).detail };
 }
 
 /** `fetch` for all requests of the page to its server. */

@@ -22,22 +22,18 @@ export interface Listener {
   picture(picture: Picture): void;
 }
 
-export interface Connection {
-  /** Returns whether the message was sent. */
-  send(message: ClientMessage & { readonly id?: number }): boolean;
-}
-
-type Page = Pick<Location, 'protocol' | 'host'>;
-
-/** Address of a WebSocket on the host that served the page. */
-function socketAddress({ protocol, host }: Page, path: string): string {
-  return `${protocol === 'https:' ? 'wss:' : 'ws:'}//${host}${addressOf(path)}`;
-}
+/** A message with the id of its answer. */
+export type Numbered = ClientMessage & { readonly id?: number };
 
 /** `seat` is the key that the server gave this browser before. */
-export function liveAddress(page: Page, session: string, seat?: string): string {
+export function liveAddress(
+  { protocol, host }: Pick<Location, 'protocol' | 'host'>,
+  session: string,
+  seat?: string,
+): string {
+  const scheme = protocol === 'https:' ? 'wss:' : 'ws:';
   const query = seat === undefined ? '' : `?${new URLSearchParams({ seat }).toString()}`;
-  return socketAddress(page, sessionPath(session, 'live') + query);
+  return `${scheme}//${host}${addressOf(sessionPath(session, 'live') + query)}`;
 }
 
 /** The address of the WebSocket, and what to do before a new attempt. */
@@ -48,8 +44,6 @@ export interface Line {
   /** Requests the session again, which may be missing after a restart of the server. Returns the reason for a refusal. */
   reopen(): Promise<{ readonly isOpen: boolean; readonly why?: string | undefined }>;
 }
-
-type Sent = ClientMessage & { readonly id?: number; readonly epoch?: number };
 
 /** Doubles from half a second to eight seconds. `chance` in [0, 1) makes many browsers reconnect at different times. */
 export function backoffMs(attempt: number, chance: number): number {
@@ -68,7 +62,7 @@ export function readPicture(frame: ArrayBuffer): Picture | undefined {
   };
 }
 
-export function connect(line: Line, listener: Listener): Connection {
+export function connect(line: Line, listener: Listener) {
   let socket: WebSocket | undefined;
   let attempt = 0;
   /** Epoch of this browser's lease, as the server sent it last on this connection. */
@@ -114,10 +108,11 @@ export function connect(line: Line, listener: Listener): Connection {
   open();
 
   return {
-    send(message) {
+    /** Returns whether the message was sent. */
+    send(message: Numbered): boolean {
       if (socket?.readyState !== WebSocket.OPEN) return false;
-      const sent: Sent = epoch === undefined ? message : { ...message, epoch };
-      socket.send(JSON.stringify(sent));
+      // Without an epoch, the text has none.
+      socket.send(JSON.stringify({ ...message, epoch }));
       return true;
     },
   };

@@ -1,17 +1,5 @@
 // Sends the newest of a stream of values, at most one per interval.
 
-export interface Clock {
-  nowMs(): number;
-  later(action: () => void, ms: number): void;
-}
-
-export const browserClock: Clock = {
-  nowMs: () => performance.now(),
-  later: (action, ms) => {
-    setTimeout(action, ms);
-  },
-};
-
 export class Limiter<T> {
   private lastMs = -Infinity;
   private pending: { value: T } | undefined;
@@ -20,17 +8,16 @@ export class Limiter<T> {
   constructor(
     private readonly intervalMs: number,
     private readonly send: (value: T) => void,
-    private readonly clock: Clock = browserClock,
   ) {}
 
   offer(value: T): void {
     this.pending = { value };
-    const waitMs = this.lastMs + this.intervalMs - this.clock.nowMs();
+    const waitMs = this.lastMs + this.intervalMs - performance.now();
     if (waitMs <= 0) {
       this.flush();
     } else if (!this.scheduled) {
       this.scheduled = true;
-      this.clock.later(() => {
+      setTimeout(() => {
         this.scheduled = false;
         this.flush();
       }, waitMs);
@@ -42,7 +29,7 @@ export class Limiter<T> {
     const pending = this.pending;
     if (!pending) return;
     this.pending = undefined;
-    this.lastMs = this.clock.nowMs();
+    this.lastMs = performance.now();
     this.send(pending.value);
   }
 }

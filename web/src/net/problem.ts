@@ -1,20 +1,25 @@
 // The server's refusals.
 
+/** The part of a policy's reference after its name, `NAME@HASH`. */
 const HASH = /@[0-9a-f]{16}\b/g;
 
-/** A text of the server with the names of policies in place of their references, `NAME@HASH`. */
-export const withoutHashes = (text: string): string => text.replaceAll(HASH, '');
-
-/** The `detail` of a problem document, if it has one. */
-export function problemText(body: unknown): string | undefined {
-  return typeof body === 'object' && body && 'detail' in body && typeof body.detail === 'string'
-    ? withoutHashes(body.detail)
-    : undefined;
+export interface Problem {
+  /** With the names of policies in place of their references. */
+  readonly detail: string;
+  /** The field of the request that is wrong. */
+  readonly field?: string | undefined;
 }
 
-/** The field of the request that a problem document names, if it names one. */
-export function problemField(body: unknown): string | undefined {
-  return typeof body === 'object' && body && 'field' in body && typeof body.field === 'string'
-    ? body.field
-    : undefined;
+/** The problem document of a response; empty if it has none, as from a proxy. */
+export async function problemOf(response: Response): Promise<Partial<Problem>> {
+  try {
+    const { detail, field } = (await response.json()) as Problem;
+    return { detail: detail.replaceAll(HASH, ''), field };
+  } catch {
+    return {};
+  }
 }
+
+/** The message of what was thrown. */
+export const reasonText = (reason: unknown): string =>
+  reason instanceof Error ? reason.message : String(reason);

@@ -1,103 +1,119 @@
-import { describe, expect, it } from 'vitest';
-import { type Answer, Asker } from './requests';
-import { problemText, withoutHashes } from './problem';
+import { createRoot, createSignal } from 'solid-js';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { createAnswerFrom } from './requests';
+import { problemOf } from './problem';
 
-/** A server that answers when the test decides, and a clock that does not advance. */
+beforeEach(() => {
+  vi.useFakeTimers();
+});
+afterEach(() => {
+  vi.useRealTimers();
+});
+
+const INTERVAL_MS = 1000;
+
+/** A server that answers when the test decides. */
 function bench() {
   const pending = new Map<string, { yes: (data: number) => void; no: (reason: Error) => void }>();
-  const answers: Answer<number>[] = [];
-  let later: (() => void)[] = [];
-  const asker = new Asker<number>(
-    (question) => new Promise((yes, no) => pending.set(question, { yes, no })),
-    (answer) => answers.push(answer),
-    undefined,
-    {
-      nowMs: () => 0,
-      later: (action) => {
-        later.push(action);
-      },
-    },
-  );
+  const [question, ask] = createSignal<string>();
+  const [key, setKey] = createSignal('colon');
+  const [answer, close] = createRoot((dispose) => [
+    createAnswerFrom<number>(
+      (asked) => new Promise((yes, no) => pending.set(asked, { yes, no })),
+      question,
+      { key, perS: 1000 / INTERVAL_MS },
+    ),
+    dispose,
+  ]);
   const next = (): void => {
-    const due = later;
-    later = [];
-    for (const action of due) action();
+    vi.advanceTimersByTime(INTERVAL_MS);
   };
-  const settle = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
-  return { asker, pending, answers, next, settle };
+  const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(0);
+  return { pending, answer, ask, setKey, next, settle, close };
 }
 
-describe('the asker', () => {
-  it('sends the newest query of an interval', () => {
-    const { asker, pending, next } = bench();
-    for (const question of ['1', '2', '3']) asker.ask(question);
+describe('an answer', () => {
+  it('is asked for with the newest query of an interval', () => {
+    const { ask, pending, next } = bench();
+    for (const question of ['1', '2', '3']) ask(question);
     next();
     expect([...pending.keys()]).toEqual(['1', '3']);
   });
 
-  it('drops an answer that arrives after a later one', async () => {
-    const { asker, pending, answers, next, settle } = bench();
-    asker.ask('old');
-    asker.ask('new');
+  it('is dropped if it arrives after a later one', async () => {
+    const { ask, pending, answer, next, settle } = bench();
+    ask('old');
+    ask('new');
     next();
     pending.get('new')?.yes(2);
     await settle();
     pending.get('old')?.yes(1);
     await settle();
-    expect(answers).toEqual([{ data: 2 }]);
+    expect(answer()).toEqual({ data: 2, key: 'colon' });
   });
 
-  it('keeps the last answer when a query is refused, and reports the reason', async () => {
-    const { asker, pending, answers, next, settle } = bench();
-    asker.ask('good');
+  it('stays when a later query is refused, with the reason', async () => {
+    const { ask, pending, answer, next, settle } = bench();
+    ask('good');
     pending.get('good')?.yes(1);
     await settle();
-    asker.ask('bad');
+    ask('bad');
     next();
     pending.get('bad')?.no(new Error('friction is -1'));
     await settle();
-    expect(answers.at(-1)).toEqual({ data: 1, error: 'friction is -1' });
-    asker.ask('good again');
+    expect(answer()).toMatchObject({ data: 1, error: 'friction is -1' });
+    ask('good again');
     next();
     pending.get('good again')?.yes(3);
     await settle();
-    expect(answers.at(-1)).toEqual({ data: 3 });
+    expect(answer()).toEqual({ data: 3, key: 'colon' });
   });
 
-  it('reports the key of the answered query', async () => {
-    const { asker, pending, answers, next, settle } = bench();
-    asker.ask('same', 'colon');
+  it('has the key of its query, which is asked again with another key', async () => {
+    const { ask, setKey, pending, answer, next, settle } = bench();
+    ask('same');
     pending.get('same')?.yes(1);
     await settle();
-    expect(answers.at(-1)).toEqual({ data: 1, key: 'colon' });
-    asker.ask('same', 'posts');
+    expect(answer()).toEqual({ data: 1, key: 'colon' });
+    setKey('posts');
     next();
     pending.get('same')?.no(new Error('no room'));
     await settle();
-    expect(answers.at(-1)).toEqual({ data: 1, error: 'no room', key: 'posts' });
+    expect(answer()).toEqual({ data: 1, error: 'no room', key: 'posts' });
   });
 
-  it('does not report an answer after it was closed', async () => {
-    const { asker, pending, answers, settle } = bench();
-    asker.ask('late');
-    asker.forget();
+  it('stays while there is no query', async () => {
+    const { ask, pending, answer, settle } = bench();
+    ask('late');
+    ask(undefined);
     pending.get('late')?.yes(1);
     await settle();
-    expect(answers).toEqual([]);
+    expect(answer()).toEqual({});
+  });
+
+  it('is not reported after the end', async () => {
+    const { ask, pending, answer, settle, close } = bench();
+    ask('late');
+    close();
+    pending.get('late')?.yes(1);
+    await settle();
+    expect(answer()).toEqual({});
   });
 });
 
-describe('the text of a refusal', () => {
-  it('is its detail', () => {
-    expect(problemText({ detail: 'count must be from 2', field: 'count' })).toMatch(/^count/);
-    expect(problemText({ title: 'Bad' })).toBeUndefined();
-    expect(problemText(undefined)).toBeUndefined();
+describe('a problem', () => {
+  it('has a text and a field', async () => {
+    const problem = { detail: 'count must be from 2', field: 'count' };
+    expect(await problemOf(Response.json(problem))).toEqual(problem);
   });
 
-  it('has names in place of references', () => {
-    expect(withoutHashes('"mine@0123456789abcdef" or other@fedcba9876543210')).toBe(
-      '"mine" or other',
-    );
-    expect(withoutHashes('a@b.org')).toBe('a@b.org');
+  it('has names in place of references', async () => {
+    const detail = '"mine@0123456789abcdef" or other@fedcba9876543210, a@b.org';
+    expect((await problemOf(Response.json({ detail }))).detail).toBe('"mine" or other, a@b.org');
+  });
+
+  it('is empty in the answer of a proxy', async () => {
+    for (const body of ['<html>', 'null', '{"title":"Bad"}'])
+      expect(await problemOf(new Response(body))).toEqual({});
   });
 });

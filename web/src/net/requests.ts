@@ -2,8 +2,8 @@
 
 import { createEffect, createMemo, createSignal, onCleanup, type Accessor } from 'solid-js';
 import { askServer } from './access';
-import { browserClock, type Clock, Limiter } from './limiter';
-import { problemField, problemText } from './problem';
+import { Limiter } from './limiter';
+import { problemOf, reasonText } from './problem';
 
 export interface Answer<A> {
   /** The newest answer. It is kept when a later query is refused. */
@@ -15,51 +15,6 @@ export interface Answer<A> {
 }
 
 const QUERIES_PER_S = 12;
-
-/** Sends the newest query, at a limited rate. An answer that arrives after a later one is dropped. */
-export class Asker<A> {
-  private readonly limiter: Limiter<readonly [question: string, key?: string]>;
-  private sent = 0;
-  private answered = 0;
-  private newest: Answer<A> = {};
-
-  constructor(
-    private readonly answerTo: (question: string) => Promise<A>,
-    private readonly report: (answer: Answer<A>) => void,
-    perS = QUERIES_PER_S,
-    clock: Clock = browserClock,
-  ) {
-    this.limiter = new Limiter(
-      1000 / perS,
-      ([question, key]) => void this.send(question, key),
-      clock,
-    );
-  }
-
-  ask(question: string, key?: string): void {
-    this.limiter.offer(key === undefined ? [question] : [question, key]);
-  }
-
-  /** Stops reporting answers. */
-  forget(): void {
-    this.answered = this.sent;
-  }
-
-  private async send(question: string, key?: string): Promise<void> {
-    this.sent += 1;
-    const number = this.sent;
-    let answer: Answer<A>;
-    try {
-      answer = { data: await this.answerTo(question), key };
-    } catch (reason) {
-      answer = { error: reason instanceof Error ? reason.message : String(reason), key };
-    }
-    if (number <= this.answered) return;
-    this.answered = number;
-    this.newest = answer.error === undefined ? answer : { ...this.newest, ...answer };
-    this.report(this.newest);
-  }
-}
 
 /** The server refused a request or did not answer. */
 export class Refusal extends Error {
@@ -74,15 +29,15 @@ export class Refusal extends Error {
   }
 }
 
-async function answered(path: string, init: RequestInit): Promise<Response> {
+/** The response to a request; throws a refusal with the message to show. */
+export async function answered(path: string, init: RequestInit): Promise<Response> {
   const response = await askServer(path, init).catch(() => {
     throw new Refusal('The server did not answer.');
   });
   if (!response.ok) {
     const { status } = response;
-    const problem: unknown = await response.json().catch(() => undefined);
-    const detail = problemText(problem) ?? `The server answered with status ${status}.`;
-    throw new Refusal(detail, problemField(problem), status);
+    const { detail, field } = await problemOf(response);
+    throw new Refusal(detail ?? `The server answered with status ${status}.`, field, status);
   }
   return response;
 }
@@ -128,28 +83,62 @@ export interface Asking {
   readonly perS?: number;
 }
 
-/** The answer to `question` at `path`. While the query is undefined, the last answer stays. */
-export function createAnswer<Q, A>(
-  path: string,
-  question: Accessor<Q | undefined>,
-  { key, perS }: Asking = {},
+/**
+ * The answer to the newest question, asked at a limited rate. An answer that arrives after a later one is dropped. While
+ * the question is undefined, the last answer stays.
+ */
+export function createAnswerFrom<A>(
+  answerTo: (question: string) => Promise<A>,
+  question: Accessor<string | undefined>,
+  { key, perS = QUERIES_PER_S }: Asking = {},
 ): Accessor<Answer<A>> {
   const [answer, setAnswer] = createSignal<Answer<A>>({});
-  const asker = new Asker<A>((body) => post<A>(path, body), setAnswer, perS);
-  // Compared as text, so that an equal query is not sent again.
-  const body = createMemo(() => {
-    const now = question();
-    return now === undefined ? undefined : JSON.stringify(now);
-  });
+  let sent = 0;
+  let answered = 0;
+  const send = async (body: string, key: string | undefined): Promise<void> => {
+    sent += 1;
+    const number = sent;
+    let next: Answer<A>;
+    try {
+      next = { data: await answerTo(body), key };
+    } catch (reason) {
+      next = { ...answer(), error: reasonText(reason), key };
+    }
+    if (number <= answered) return;
+    answered = number;
+    setAnswer(next);
+  };
+  const limiter = new Limiter<readonly [string, string | undefined]>(
+    1000 / perS,
+    ([body, key]) => void send(body, key),
+  );
+  const forget = (): void => {
+    answered = sent;
+  };
+  // Memos, so that an equal question is not sent again.
+  const body = createMemo(question);
   const keyNow = createMemo(() => key?.());
   createEffect(() => {
-    const now = body();
-    const key = keyNow();
-    if (now === undefined) asker.forget();
-    else asker.ask(now, key);
+    const [now, key] = [body(), keyNow()];
+    if (now === undefined) forget();
+    else limiter.offer([now, key]);
   });
-  onCleanup(() => {
-    asker.forget();
-  });
+  onCleanup(forget);
   return answer;
+}
+
+/** The answer to a query at `path`. */
+export function createAnswer<Q, A>(
+  path: string,
+  query: Accessor<Q | undefined>,
+  asking?: Asking,
+): Accessor<Answer<A>> {
+  return createAnswerFrom(
+    (body) => post<A>(path, body),
+    () => {
+      const now = query();
+      return now === undefined ? undefined : JSON.stringify(now);
+    },
+    asking,
+  );
 }

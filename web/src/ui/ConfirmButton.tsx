@@ -1,6 +1,6 @@
 // A button that asks before it does something that cannot be undone.
 
-import { Show, createSignal, onMount, type JSX } from 'solid-js';
+import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import './ConfirmButton.css';
 
 interface ConfirmProps {
@@ -16,63 +16,22 @@ interface ConfirmProps {
   readonly onYes: () => Promise<boolean>;
 }
 
-/** The focus is on the answer that changes nothing. */
-function Question(
-  props: ConfirmProps & { isBusy: boolean; onAnswer: () => void; onKeep: () => void },
-): JSX.Element {
-  let keep!: HTMLButtonElement;
-  const warning = (): string => (props.warning === undefined ? '' : `${props.warning} `);
-  onMount(() => {
-    keep.focus();
-  });
-  return (
-    <span
-      class="confirm"
-      role="group"
-      aria-label={`${warning()}${props.verb} ${props.of}?`}
-      onKeyDown={(event) => {
-        if (event.key === 'Escape') props.onKeep();
-      }}
-    >
-      <span>
-        {warning()}
-        {props.verb}?
-      </span>
-      <button
-        type="button"
-        class="small danger"
-        aria-label={`Yes, ${props.verb.toLowerCase()} ${props.of}`}
-        aria-disabled={props.isBusy}
-        onClick={() => {
-          if (!props.isBusy) props.onAnswer();
-        }}
-      >
-        Yes
-      </button>
-      <button
-        ref={keep}
-        type="button"
-        class="small"
-        aria-label={`Keep ${props.of}`}
-        onClick={() => {
-          props.onKeep();
-        }}
-      >
-        Keep
-      </button>
-    </span>
-  );
-}
-
 export function ConfirmButton(props: ConfirmProps): JSX.Element {
   let button: HTMLButtonElement | undefined;
+  let keepButton: HTMLButtonElement | undefined;
   const [isAsking, setAsking] = createSignal(false);
   const [isBusy, setBusy] = createSignal(false);
+  const warning = (): string => (props.warning === undefined ? '' : `${props.warning} `);
+  createEffect(() => {
+    // The answer that changes nothing.
+    if (isAsking()) keepButton?.focus();
+  });
   const keep = (): void => {
     setAsking(false);
     button?.focus();
   };
   const act = async (): Promise<void> => {
+    if (isBusy()) return;
     setBusy(true);
     const isDone = await props.onYes();
     setBusy(false);
@@ -97,7 +56,37 @@ export function ConfirmButton(props: ConfirmProps): JSX.Element {
         </button>
       }
     >
-      <Question {...props} isBusy={isBusy()} onAnswer={() => void act()} onKeep={keep} />
+      <span
+        class="confirm"
+        role="group"
+        aria-label={`${warning()}${props.verb} ${props.of}?`}
+        onKeyDown={(event) => {
+          if (event.key === 'Escape') keep();
+        }}
+      >
+        <span>
+          {warning()}
+          {props.verb}?
+        </span>
+        <button
+          type="button"
+          class="small danger"
+          aria-label={`Yes, ${props.verb.toLowerCase()} ${props.of}`}
+          aria-disabled={isBusy()}
+          onClick={() => void act()}
+        >
+          Yes
+        </button>
+        <button
+          ref={keepButton}
+          type="button"
+          class="small"
+          aria-label={`Keep ${props.of}`}
+          onClick={keep}
+        >
+          Keep
+        </button>
+      </span>
     </Show>
   );
 }

@@ -1,9 +1,9 @@
 // Panels under tabs, with arrow keys to move between the tabs.
 
-import { For, Show, createEffect, createMemo, createSignal, untrack, type JSX } from 'solid-js';
+import { For, Show, createEffect, createMemo, untrack, type JSX } from 'solid-js';
 import { createFold } from './fold';
 import { FoldButton } from './FoldButton';
-import { recall, remember } from './storage';
+import { createChoice } from './storage';
 import './Tabs.css';
 
 /** Number of tabs that a key moves by. */
@@ -29,23 +29,21 @@ export function Tabs<T extends TabHead>(props: {
 }): JSX.Element {
   const tools = document.createElement('div');
   tools.className = 'tab-tools';
-  const key = `tab.${props.area}`;
-  const kept = props.tabs.findIndex(({ id }) => id === recall(key));
-  const [index, setIndex] = createSignal(Math.max(0, kept));
-  const tab = createMemo(() => props.tabs[index()] ?? props.tabs[0]);
-  createEffect(() => {
-    remember(key, tab().id);
-  });
+  const [first, ...rest] = props.tabs;
+  const [open, setOpen] = createChoice(`tab.${props.area}`, [
+    first.id,
+    ...rest.map(({ id }) => id),
+  ]);
+  const tab = createMemo(() => props.tabs.find(({ id }) => id === open()) ?? first);
   const fold = createFold(props.area);
   const panel = createMemo(() => {
     const now = tab();
     return fold.isOpen() ? untrack(() => props.children(now, tools)) : undefined;
   });
-  const buttons: HTMLButtonElement[] = [];
   createEffect(() => {
-    const found = props.tabs.findIndex(({ id }) => id === props.opened);
-    if (found < 0) return;
-    setIndex(found);
+    const found = props.tabs.find(({ id }) => id === props.opened);
+    if (!found) return;
+    setOpen(found.id);
     fold.set(true);
     props.onOpened();
   });
@@ -53,9 +51,10 @@ export function Tabs<T extends TabHead>(props: {
     const move = MOVES[event.key];
     if (move === undefined) return;
     event.preventDefault();
-    const next = (index() + move + props.tabs.length) % props.tabs.length;
-    setIndex(next);
-    buttons[next]?.focus();
+    const at = props.tabs.indexOf(tab());
+    const next = props.tabs[(at + move + props.tabs.length) % props.tabs.length] ?? first;
+    setOpen(next.id);
+    document.getElementById(`tab-${next.id}`)?.focus();
   };
   return (
     <section class={`panel ${props.area}`} data-closed={fold.isOpen() ? undefined : ''}>
@@ -63,17 +62,16 @@ export function Tabs<T extends TabHead>(props: {
         <FoldButton fold={fold} controls={`${props.area}-panel`} label={props.label} />
         <div class="tabs" role="tablist" aria-label={props.label} onKeyDown={onKey}>
           <For each={props.tabs}>
-            {({ id, title }, at) => (
+            {({ id, title }) => (
               <button
-                ref={(button) => (buttons[at()] = button)}
                 type="button"
                 role="tab"
                 id={`tab-${id}`}
                 aria-controls={`${props.area}-panel`}
-                aria-selected={index() === at()}
-                tabindex={index() === at() ? 0 : -1}
+                aria-selected={open() === id}
+                tabindex={open() === id ? 0 : -1}
                 onClick={() => {
-                  setIndex(at());
+                  setOpen(id);
                   fold.set(true);
                 }}
               >

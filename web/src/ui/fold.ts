@@ -1,22 +1,16 @@
 // Panels that open and close. They stay as the user left them.
 
-import { createSignal, type Accessor } from 'solid-js';
-import { recall, remember } from './storage';
+import { createChoice } from './storage';
 
-export interface Fold {
-  readonly isOpen: Accessor<boolean>;
-  set(open: boolean): void;
-}
+export type Fold = ReturnType<typeof createFold>;
 
 /** A panel that is closed until the user opens it. */
-export function createFold(name: string): Fold {
-  const key = `panel.${name}`;
-  const [isOpen, setOpen] = createSignal(recall(key) === 'open');
+export function createFold(name: string) {
+  const [state, setState] = createChoice(`panel.${name}`, ['closed', 'open']);
   return {
-    isOpen,
-    set(open) {
-      setOpen(open);
-      remember(key, open ? 'open' : 'closed');
+    isOpen: (): boolean => state() === 'open',
+    set: (open: boolean) => {
+      setState(open ? 'open' : 'closed');
     },
   };
 }

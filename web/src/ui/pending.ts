@@ -2,12 +2,7 @@
 
 import { createMemo, createSignal, type Accessor } from 'solid-js';
 
-export interface Pending<A> {
-  /** What the control shows: the user's choice until it is answered, then the server's value. */
-  readonly value: Accessor<A>;
-  readonly isPending: Accessor<boolean>;
-  choose(value: A): void;
-}
+export type Pending<A> = ReturnType<typeof createPending<A>>;
 
 /**
  * `send` resolves when the server has answered, after `truth` shows the effect. One choice is on its way at a time; of
@@ -18,7 +13,7 @@ export function createPending<A>(
   send: (value: A) => Promise<unknown>,
   rest: (wanted: A, sent: A) => A | undefined = (wanted, sent) =>
     wanted === sent ? undefined : wanted,
-): Pending<A> {
+) {
   const [wanted, setWanted] = createSignal<{ readonly value: A }>();
   let isSending = false;
   const work = async (): Promise<void> => {
@@ -35,9 +30,10 @@ export function createPending<A>(
     isSending = false;
   };
   return {
+    /** What the control shows: the user's choice until it is answered, then the server's value. */
     value: createMemo(() => wanted()?.value ?? truth()),
     isPending: createMemo(() => wanted() !== undefined),
-    choose: (value) => {
+    choose: (value: A) => {
       setWanted({ value });
       void work();
     },

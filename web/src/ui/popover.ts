@@ -1,15 +1,8 @@
 // A popover below a button. It closes on Escape, on a press elsewhere, and when the focus leaves it.
 
-import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
+import { createEffect, createSignal, onCleanup } from 'solid-js';
 
-export interface Popover {
-  readonly open: Accessor<boolean>;
-  readonly setOpen: (open: boolean) => void;
-  /** Ref of the element that contains both button and content. */
-  readonly onFocusOut: (event: FocusEvent) => void;
-}
-
-export function createPopover(box: () => HTMLElement, button: () => HTMLButtonElement): Popover {
+export function createPopover(box: () => HTMLElement, button: () => HTMLButtonElement) {
   const [open, setOpen] = createSignal(false);
   createEffect(() => {
     if (!open()) return;
@@ -35,7 +28,8 @@ export function createPopover(box: () => HTMLElement, button: () => HTMLButtonEl
   return {
     open,
     setOpen,
-    onFocusOut: ({ relatedTarget }) => {
+    /** Of the element that contains both button and content. */
+    onFocusOut: ({ relatedTarget }: FocusEvent) => {
       // The focus moved on. Without a new target, a click on something that cannot have focus caused this.
       if (relatedTarget && !box().contains(relatedTarget as Node)) setOpen(false);
     },

@@ -33,13 +33,7 @@ export interface Focus {
   readonly inDialog: boolean;
 }
 
-export interface Press {
-  readonly key: string;
-  readonly repeat: boolean;
-  readonly ctrlKey: boolean;
-  readonly altKey: boolean;
-  readonly metaKey: boolean;
-}
+export type Press = Pick<KeyboardEvent, 'key' | 'repeat' | 'ctrlKey' | 'altKey' | 'metaKey'>;
 
 /** The shortcut of a key press with the present focus. Pure. */
 export function shortcutFor(

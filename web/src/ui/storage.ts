@@ -1,5 +1,7 @@
 // The user's choices in the browser's storage. If storage is forbidden or full, choices last as long as the page.
 
+import { createSignal, type Accessor } from 'solid-js';
+
 /** Choices that could not be stored. */
 const unstored = new Map<string, string>();
 
@@ -20,6 +22,22 @@ export function remember(key: string, value: string): void {
   } catch {
     unstored.set(key, value);
   }
+}
+
+/** One of some values, as the user chose last; the first one until then. */
+export function createChoice<const T extends string>(
+  key: string,
+  values: readonly [T, ...T[]],
+): readonly [value: Accessor<T>, choose: (value: T) => void] {
+  const stored = recall(key);
+  const [value, setValue] = createSignal<T>(values.find((one) => one === stored) ?? values[0]);
+  return [
+    value,
+    (next) => {
+      setValue(() => next);
+      remember(key, next);
+    },
+  ];
 }
 
 /** What this tab remembers over a reload, or nothing if storage is forbidden. */

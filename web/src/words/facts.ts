@@ -49,9 +49,7 @@ export function reasonWords(reason: Reason, hasDistance = false): string {
     return 'lift-off: the bead hangs on the magnet; take it off by hand, or reset';
   const far = hasDistance ? `${millimetres(reason.error_m)} away, ` : '';
   if (reason.code === 'wall_between')
-    return hasDistance
-      ? `fetching: ${far}but a wall is between`
-      : 'fetching, but a wall is between';
+    return `fetching${hasDistance ? ': ' : ', '}${far}but a wall is between`;
   const limit = millimetres(reason.threshold_m);
   switch (reason.code) {
     case 'lost':

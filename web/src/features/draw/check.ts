@@ -1,7 +1,7 @@
 // What the server says about the drawing, after each change.
 
-import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
-import { type Answer, Asker } from '../../net/requests';
+import type { Accessor } from 'solid-js';
+import { createAnswerFrom } from '../../net/requests';
 import type { MapCheck } from '../../net/protocol.gen';
 import { checkOf, faultWords, reportWords } from '../../lab/maps';
 
@@ -36,13 +36,9 @@ export interface Check {
 
 /** Asks again when the connection comes back. */
 export function createCheck(svg: Accessor<string>, isLive: Accessor<boolean>): Check {
-  const [answer, setAnswer] = createSignal<Answer<MapCheck>>({});
-  const asker = new Asker<MapCheck>(checkOf, setAnswer, CHECKS_PER_S);
-  createEffect(() => {
-    if (isLive()) asker.ask(svg(), svg());
-  });
-  onCleanup(() => {
-    asker.forget();
+  const answer = createAnswerFrom(checkOf, () => (isLive() ? svg() : undefined), {
+    key: svg,
+    perS: CHECKS_PER_S,
   });
   return {
     found: () => (answer().error === undefined ? answer().data : undefined),

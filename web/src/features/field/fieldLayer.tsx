@@ -16,7 +16,7 @@ export const FIELD_LAYER: MapLayer = {
   group: 'Motion',
   create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
     const answer = createAnswer<PlaneQuery, Plane>('/api/magnetics/plane', () => {
-      const parameters = lab.tuning();
+      const parameters = lab.edits.shown();
       const asks = isShown() && lab.connection().kind === 'live';
       return asks && parameters ? planeQuery(parameters) : undefined;
     });

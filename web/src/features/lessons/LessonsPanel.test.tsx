@@ -17,7 +17,7 @@ it('ends the settings of a lesson with it', async () => {
   await button('Set it up').click();
   await expect.poll(() => server.command('load_scenario')).toBeDefined();
   server.load();
-  await expect.poll(() => lab.tuning()?.switching_law).toBe('literal');
+  await expect.poll(() => lab.edits.shown()?.switching_law).toBe('literal');
   await button('All lessons').click();
   await expect.poll(() => server.command('configure')?.parameters).toEqual(lab.scene()?.defaults);
 });

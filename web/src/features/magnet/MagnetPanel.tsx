@@ -227,7 +227,7 @@ function Magnet(props: {
 export function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
   return (
     <Show
-      when={props.lab.tuning()}
+      when={props.lab.edits.shown()}
       fallback={<p class="placeholder">Waiting for the parameters.</p>}
     >
       {(parameters) => <Magnet lab={props.lab} theme={props.theme} parameters={parameters()} />}

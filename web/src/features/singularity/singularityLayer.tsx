@@ -20,7 +20,7 @@ export const SINGULARITY_LAYER: MapLayer = {
       : undefined,
   create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
     const question = createMemo<WorkspaceQuery | undefined>(() => {
-      const [scene, parameters] = [lab.scene(), lab.tuning()];
+      const [scene, parameters] = [lab.scene(), lab.edits.shown()];
       return isShown() && scene && parameters ? workspaceQuery(scene, parameters) : undefined;
     });
     const answer = createAnswer<WorkspaceQuery, WorkspaceMap>('/api/kinematics/workspace', () =>

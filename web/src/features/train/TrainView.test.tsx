@@ -46,7 +46,7 @@ it('explains itself, and refuses a wrong name or setting at its field', async ()
   await name.fill('general');
   expect(refused()).toEqual([]);
   await submit.click();
-  await expect.poll(refused).toEqual(['a shipped policy is called general']);
+  await expect.poll(refused).toEqual(['name: a shipped policy is called general']);
 
   // A wrong field in the closed settings is opened.
   await name.fill('mine');

@@ -1,7 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 import type { ControllerName } from './experiment.gen';
-import type { Setting } from './report.gen';
 
 /**
  * A parameter with evenly spaced values, ends included.
@@ -113,6 +112,11 @@ tracking_error_max_x_m: number | null,
  * The same in y.
  */
 tracking_error_max_y_m: number | null, };
+
+/**
+ * A varied parameter's value in one row.
+ */
+export type Setting = { name: string, value: number, };
 
 /**
  * A cell of an evaluation with its progress.

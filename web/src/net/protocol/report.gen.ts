@@ -1,11 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-import type { EvaluationCell, EvaluationQuery, JobStage } from './evaluations.gen';
-
-/**
- * A varied parameter's value in one row.
- */
-export type Setting = { name: string, value: number, };
+import type { EvaluationCell, EvaluationQuery, JobStage, Setting } from './evaluations.gen';
 
 /**
  * One row of the table.

@@ -1,20 +1,16 @@
 // The login page. It sends the token to the server once, in a request body, and stores it nowhere.
 
-import { problemText } from '../../net/problem';
+import { reasonText } from '../../net/problem';
+import { answered } from '../../net/requests';
 import { createTheme } from '../../ui/theme';
 import { takeToken } from '../../net/loginToken';
+import { part } from '../part';
 import { addressOf, pathOf } from '../../net/base';
 
-function byTag<T extends Element>(selector: string, kind: new () => T): T {
-  const found = document.querySelector(selector);
-  if (!(found instanceof kind)) throw new Error(`login/index.html has no ${selector}`);
-  return found;
-}
-
-const form = byTag('form', HTMLFormElement);
-const field = byTag('#token', HTMLInputElement);
-const button = byTag('button', HTMLButtonElement);
-const status = byTag('[role=status]', HTMLElement);
+const form = part('form');
+const field = part('input', '#token');
+const button = part('button');
+const status = part('p', '[role=status]');
 
 createTheme();
 
@@ -27,23 +23,18 @@ async function logIn(token: string): Promise<void> {
   button.disabled = true;
   say('Logging in…');
   try {
-    const response = await fetch(addressOf('/login'), {
+    await answered('/login', {
       method: 'POST',
       headers: { 'content-type': 'application/json' },
       body: JSON.stringify({ token }),
     });
-    if (response.ok) {
-      enter();
-      return;
-    }
-    const problem: unknown = await response.json().catch(() => undefined);
-    say(problemText(problem) ?? `The server answered with status ${response.status}.`, true);
-  } catch {
-    say('The server did not answer.', true);
+    enter();
+  } catch (reason) {
+    say(reasonText(reason), true);
+    button.disabled = false;
+    field.focus();
+    field.select();
   }
-  button.disabled = false;
-  field.focus();
-  field.select();
 }
 
 form.addEventListener('submit', (event) => {
@@ -58,9 +49,11 @@ function enter(): void {
 }
 
 /** A link from another site comes without the cookie, although the browser may have it. */
-async function isKnown(): Promise<boolean> {
-  const response = await fetch(addressOf('/api/maps'), { method: 'HEAD' }).catch(() => undefined);
-  return response?.ok === true;
+function isKnown(): Promise<boolean> {
+  return answered('/api/maps', { method: 'HEAD' }).then(
+    () => true,
+    () => false,
+  );
 }
 
 async function begin(carried: string | undefined): Promise<void> {

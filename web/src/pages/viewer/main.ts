@@ -1,21 +1,15 @@
 // The page of Rerun's viewer, in a frame of the Recordings view: `/viewer/?recording=ID&theme=dark`.
 
-import { problemText } from '../../net/problem';
+import { reasonText } from '../../net/problem';
+import { answered } from '../../net/requests';
 import { keptAtHome } from './home';
 import { themeOf } from '../../features/recordings/viewerMessages';
 import { loadViewer, type WebHandle } from './rerun';
+import { part } from '../part';
 import { Scheme } from './scheme';
 import { addressOf } from '../../net/base';
 
 const PANIC_CHECK_MS = 1000;
-
-function part(selector: 'canvas'): HTMLCanvasElement;
-function part(selector: 'p'): HTMLParagraphElement;
-function part(selector: 'canvas' | 'p'): HTMLElement {
-  const found = document.querySelector(selector);
-  if (!found) throw new Error(`viewer/index.html has no ${selector}`);
-  return found;
-}
 
 const canvas = part('canvas');
 const status = part('p');
@@ -23,16 +17,6 @@ const status = part('p');
 function show(state: 'loading' | 'open' | 'failed', text: string): void {
   document.body.dataset.state = state;
   status.textContent = text;
-}
-
-async function check(address: string): Promise<void> {
-  const response = await fetch(address, { method: 'HEAD' });
-  if (!response.ok) {
-    const problem: unknown = await fetch(address)
-      .then((again) => again.json())
-      .catch(() => undefined);
-    throw new Error(problemText(problem) ?? `The server answered with status ${response.status}.`);
-  }
 }
 
 /** The used fields of the viewer's events. */
@@ -60,16 +44,15 @@ function watchForPanic(handle: WebHandle): void {
 }
 
 async function open(recording: string): Promise<void> {
-  const address = new URL(
-    addressOf(`/api/recordings/${encodeURIComponent(recording)}.rrd`),
-    location.origin,
-  );
-  await check(address.href);
+  const path = `/api/recordings/${encodeURIComponent(recording)}.rrd`;
+  const { href } = new URL(addressOf(path), location.origin);
+  // Only the answer to GET says why it is refused.
+  if (!(await fetch(href, { method: 'HEAD' })).ok) await answered(path, {});
   show('loading', 'Loading Rerun’s viewer, 13 MB the first time…');
   const Handle = await loadViewer();
   show('loading', 'Opening the recording…');
   const handle = new Handle({
-    url: address.href,
+    url: href,
     render_backend: 'webgl',
     hide_welcome_screen: true,
     enable_history: false,
@@ -100,8 +83,7 @@ function start(): void {
     scheme.set(changed);
   });
   open(query.get('recording') ?? '').catch((reason: unknown) => {
-    const why = reason instanceof Error ? reason.message : String(reason);
-    show('failed', `The recording could not be opened: ${why}`);
+    show('failed', `The recording could not be opened: ${reasonText(reason)}`);
   });
 }
 

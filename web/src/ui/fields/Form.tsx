@@ -31,26 +31,17 @@ export interface FormFields {
 const Fields = createContext<FormFields>();
 
 /** Joins the form around the field. */
-export function joinForm(entry: Entry): {
-  refusal: () => string | undefined;
-  mend: () => void;
-} {
+export function joinForm(entry: Entry) {
   const form = useContext(Fields);
   form?.add(entry);
   return { refusal: () => form?.refusal(entry), mend: () => form?.mend(entry) };
 }
 
 /** `maps[1]` belongs to `maps`, and `settings.discount` to `discount`. */
-const nameOf = (field: string): string => field.replace(/\[.*$/, '').replace(/^.*\./, '');
-
-function wordsOf(reason: unknown): { text: string; name?: string } {
-  if (!(reason instanceof Error)) return { text: String(reason) };
-  const field = 'field' in reason && typeof reason.field === 'string' ? reason.field : undefined;
-  if (field === undefined) return { text: reason.message };
-  // The label beside the text says it already.
-  const own = `${field}: `;
-  const text = reason.message.startsWith(own) ? reason.message.slice(own.length) : reason.message;
-  return { text, name: nameOf(field) };
+function nameIn(reason: unknown): string | undefined {
+  return reason instanceof Error && 'field' in reason && typeof reason.field === 'string'
+    ? reason.field.replace(/\[.*$/, '').replace(/^.*\./, '')
+    : undefined;
 }
 
 export function Form(props: {
@@ -116,9 +107,9 @@ export function Form(props: {
     try {
       await props.send();
     } catch (reason) {
-      const { text, name } = wordsOf(reason);
+      const text = reason instanceof Error ? reason.message : String(reason);
+      const name = nameIn(reason);
       const entry = [...entries].find(({ names }) => name !== undefined && names.includes(name));
-      setPending(false);
       if (entry) refuse(new Map([[entry, text]]));
       else setGeneral(text);
     }

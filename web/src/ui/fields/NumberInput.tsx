@@ -2,30 +2,26 @@
 
 import { Show, createEffect, createSignal, createUniqueId, untrack, type JSX } from 'solid-js';
 import { numberFault, numberOf, stepped, type Steps } from './number';
+import type { InputProps } from './Row';
 
 /** A text that is not a number stays, and the field says why. */
 export function NumberInput(
-  props: Steps & {
-    value: number | string;
-    id?: string;
-    /** Without a `label` element. */
-    label?: string | undefined;
-    title?: string;
-    style?: JSX.CSSProperties;
-    disabled?: boolean | undefined;
-    /** Outside of the limits is a fault, too. */
-    isStrict?: boolean;
-    /** What the form finds wrong. */
-    isInvalid?: boolean;
-    describedBy?: string | undefined;
-    /** Each edit, as typed. */
-    onInput?: ((text: string) => void) | undefined;
-    /** The number, when its edit ends. The shown one is `value` again. */
-    onNumber?: ((value: number) => void) | undefined;
-    /** Says what is wrong; otherwise it is said below the input. */
-    onFault?: (fault: string | undefined) => void;
-    onBlur?: () => void;
-  },
+  props: Steps &
+    Partial<InputProps> & {
+      value: number | string;
+      title?: string;
+      style?: JSX.CSSProperties;
+      'aria-busy'?: boolean;
+      /** Outside of the limits is a fault, too. */
+      isStrict?: boolean;
+      /** Each edit, as typed. */
+      onInput?: ((text: string) => void) | undefined;
+      /** The number, when its edit ends. The shown one is `value` again. */
+      onNumber?: ((value: number) => void) | undefined;
+      /** Says what is wrong; otherwise it is said below the input. */
+      onFault?: (fault: string | undefined) => void;
+      onBlur?: () => void;
+    },
 ): JSX.Element {
   let input!: HTMLInputElement;
   const [text, setText] = createSignal('');
@@ -72,12 +68,13 @@ export function NumberInput(
         role="spinbutton"
         inputmode={props.isWhole ? 'numeric' : (props.min ?? -1) < 0 ? 'text' : 'decimal'}
         autocomplete="off"
-        aria-label={props.label}
+        aria-label={props['aria-label']}
+        aria-busy={props['aria-busy']}
         aria-valuenow={valueNow()}
         aria-valuemin={props.min}
         aria-valuemax={props.max}
-        aria-invalid={props.isInvalid === true || fault() !== undefined}
-        aria-describedby={isSaid() && !props.onFault ? faultId : props.describedBy}
+        aria-invalid={props['aria-invalid'] === true || fault() !== undefined}
+        aria-describedby={isSaid() && !props.onFault ? faultId : props['aria-describedby']}
         data-step={props.step}
         title={props.title}
         style={props.style}

@@ -41,13 +41,7 @@ type FrameProps = FieldProps & {
   children: (input: InputProps) => JSX.Element;
 };
 
-interface Parts {
-  readonly input: InputProps;
-  readonly help: JSX.Element;
-  readonly refusal: JSX.Element;
-}
-
-function createParts(props: FrameProps): Parts {
+function createParts(props: FrameProps) {
   const id = createUniqueId();
   const form = joinForm({
     names: [props.name ?? '', ...(props.also ?? [])],
@@ -63,22 +57,23 @@ function createParts(props: FrameProps): Parts {
     const parts = [props.unit && `${id}-unit`, props.help && `${id}-help`];
     return parts.filter(Boolean).join(' ') || undefined;
   };
-  return {
-    input: {
-      id,
-      get disabled() {
-        return props.disabled ?? false;
-      },
-      get 'aria-label'() {
-        return props.fullName;
-      },
-      get 'aria-invalid'() {
-        return refusal() !== undefined;
-      },
-      get 'aria-describedby'() {
-        return about();
-      },
+  const input: InputProps = {
+    id,
+    get disabled() {
+      return props.disabled ?? false;
     },
+    get 'aria-label'() {
+      return props.fullName;
+    },
+    get 'aria-invalid'() {
+      return refusal() !== undefined;
+    },
+    get 'aria-describedby'() {
+      return about();
+    },
+  };
+  return {
+    input,
     help: (
       <Show when={props.help}>
         {(text) => <Help id={`${id}-help`} of={props.fullName ?? props.label} text={text()} />}

@@ -110,7 +110,7 @@ it.each([
   ['kind', page.getByRole('combobox')],
   ['full', page.getByRole('checkbox', { name: 'Full' })],
 ] as const)('shows a refusal of %s at its field', async (field, input) => {
-  open(() => Promise.reject(new Refused(`${field}: taken`, field)));
+  open(() => Promise.reject(new Refused('taken', field)));
   await button.click();
   await expect.element(input).toHaveAttribute('aria-invalid', 'true');
   await expect.element(input).toHaveFocus();

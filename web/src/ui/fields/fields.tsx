@@ -51,20 +51,10 @@ export function NumberField(
     >
       {(input) => (
         <NumberInput
-          id={input.id}
-          label={input['aria-label']}
-          describedBy={input['aria-describedby']}
-          isInvalid={input['aria-invalid']}
-          min={props.min}
-          max={props.max}
-          step={props.step}
-          isWhole={props.isWhole}
+          {...props}
+          {...input}
           isStrict={props.onInput !== undefined}
-          value={props.value}
-          disabled={input.disabled}
           onFault={setFault}
-          onInput={(text) => props.onInput?.(text)}
-          onNumber={props.onNumber}
         />
       )}
     </Row>
