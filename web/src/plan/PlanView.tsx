@@ -15,7 +15,7 @@ import type { Palette } from '../ui/palette';
 import { fitView, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
 import { fogPath } from './fog';
-import type { LiveLayer } from './layer';
+import { type LiveLayer, shownParts } from './layer';
 import { type Base, createPainter, type Picture } from './paint';
 import type { Interaction } from './interaction';
 import { type Size, ViewCanvas } from './ViewCanvas';
@@ -66,12 +66,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   });
   const baseMap = createBaseMap(lab, layers, palette, view, lab.movedWalls);
 
-  const moving = createMemo(() =>
-    layers.flatMap((layer) => {
-      const draw = layer.isShown() ? layer.moving?.() : undefined;
-      return draw ? [draw] : [];
-    }),
-  );
+  const moving = createMemo(() => shownParts(layers, 'moving').map(({ drawing }) => drawing));
   const fog = createMemo(() => {
     const [now, workspace] = [view(), lab.scene()?.workspace];
     return now && workspace && lab.sight() !== 'all'

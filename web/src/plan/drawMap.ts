@@ -2,7 +2,7 @@
 
 import { fixed } from '../ui/format';
 import type { Polygon, Rect } from '../net/protocol.gen';
-import { pxFromWorld, type View } from './transform';
+import { pxFromWorld, pxRect, type View } from './transform';
 import type { Palette } from '../ui/palette';
 
 export const FONT = '11px system-ui, sans-serif';
@@ -80,10 +80,8 @@ export function drawFloor(
   view: View,
   palette: Palette,
 ): void {
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   ctx.fillStyle = palette.floor;
-  ctx.fillRect(left, top, right - left, bottom - top);
+  ctx.fillRect(...pxRect(view, rect));
 }
 
 /** The walls and the border. */
@@ -109,9 +107,7 @@ export function drawBorder(
   view: View,
   palette: Palette,
 ): void {
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   ctx.strokeStyle = palette['wall-edge'];
   ctx.lineWidth = BORDER_PX;
-  ctx.strokeRect(left, top, right - left, bottom - top);
+  ctx.strokeRect(...pxRect(view, rect));
 }

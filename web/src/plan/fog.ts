@@ -4,7 +4,7 @@ import type { Rect, SeenMessage } from '../net/protocol.gen';
 import { UNKNOWN } from '../lab/obstacleMap';
 import { drawClipped } from './baseMap';
 import type { BasePicture } from './layer';
-import { pxFromWorld, type View } from './transform';
+import { pxRect, type View } from './transform';
 
 /** A row of cells: row, first column, and the column after the last. */
 export type Span = readonly [row: number, from: number, to: number];
@@ -28,13 +28,12 @@ export function unseenSpans({ columns, runs }: Pick<SeenMessage, 'columns' | 'ru
 /** The fog as a path in a view; everything before the first obstacle map. */
 export function fogPath(seen: SeenMessage | undefined, workspace: Rect, view: View): Path2D {
   const path = new Path2D();
-  const [left, top] = pxFromWorld(view, [workspace.x_min_m, workspace.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [workspace.x_max_m, workspace.y_min_m]);
+  const [left, top, width, height] = pxRect(view, workspace);
   if (!seen) {
-    path.rect(left, top, right - left, bottom - top);
+    path.rect(left, top, width, height);
     return path;
   }
-  const [wide, high] = [(right - left) / seen.columns, (bottom - top) / seen.rows];
+  const [bottom, wide, high] = [top + height, width / seen.columns, height / seen.rows];
   // Whole pixels, so that nothing shines through between two rows.
   const at = (place: number): number => Math.round(place);
   for (const [row, from, to] of unseenSpans(seen)) {

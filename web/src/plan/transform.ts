@@ -38,6 +38,13 @@ export function pxFromWorld(view: View, point: Vec2): [number, number] {
   return [view.originX + point[0] * view.pxPerM, view.originY - point[1] * view.pxPerM];
 }
 
+/** Left, top, width and height of a rectangle of the table. */
+export function pxRect(view: View, rect: Rect): [number, number, number, number] {
+  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
+  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+  return [left, top, right - left, bottom - top];
+}
+
 export function worldFromPx(view: View, point: Vec2): [number, number] {
   return [(point[0] - view.originX) / view.pxPerM, (view.originY - point[1]) / view.pxPerM];
 }

@@ -17,7 +17,7 @@ import type { SceneView } from './SceneView';
 import type { InScene, LoadedLayer } from './sceneLayer';
 import { createBaseMap } from '../plan/baseMap';
 import type { Surface } from '../plan/interaction';
-import type { LiveLayer, MapLayer } from '../plan/layer';
+import { type LiveLayer, type MapLayer, shownParts } from '../plan/layer';
 import { createFloorPicture, type FloorPicture, repaintFloor } from '../plan/floorPicture';
 import { handOf, remarkOf } from '../plan/paint';
 import type { SurfaceProps } from '../plan/PlanView';
@@ -151,11 +151,7 @@ export function ScenePanel(
   });
 
   createEffect(() => {
-    const pictures = layers.flatMap((layer) => {
-      const picture = layer.isShown() ? layer.underTool?.() : undefined;
-      return picture ? [picture] : [];
-    });
-    drawing()?.hang(pictures);
+    drawing()?.hang(shownParts(layers, 'underTool').map(({ drawing }) => drawing));
   });
 
   const pull = createMemo(() => {

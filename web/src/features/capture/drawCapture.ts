@@ -45,5 +45,4 @@ export function drawCapture(
   ctx.strokeStyle = palette.tool;
   ctx.lineWidth = 1.25;
   ctx.stroke(edge);
-  ctx.globalAlpha = 1;
 }

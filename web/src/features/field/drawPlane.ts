@@ -7,6 +7,7 @@ import { HALF_SIDE_M, planeArrows, planePixels, SIDE_PX } from './plane';
 import type { Vec2 } from '../../lab/geometry';
 import { type Arrow, arrowPath } from '../../plan/arrows';
 import type { Ramp } from '../../plan/colourRamp';
+import { imageOf } from '../../plan/pixels';
 
 const ARROW_ALPHA = 0.6;
 
@@ -16,13 +17,8 @@ export interface FieldPicture {
 }
 
 export function createFieldPicture(plane: Plane, palette: Palette): FieldPicture {
-  const image = document.createElement('canvas');
-  image.width = SIDE_PX;
-  image.height = SIDE_PX;
   const ramp: Ramp = [palette['field-low'], palette['field-middle'], palette['field-high']];
-  const pixels = new ImageData(planePixels(plane, ramp), SIDE_PX, SIDE_PX);
-  image.getContext('2d')?.putImageData(pixels, 0, 0);
-  return { image, arrows: planeArrows(plane) };
+  return { image: imageOf(planePixels(plane, ramp), SIDE_PX), arrows: planeArrows(plane) };
 }
 
 export function drawField(

@@ -3,7 +3,7 @@
 import { createMemo } from 'solid-js';
 import type { Plane, PlaneQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
-import type { LayerContext, MapLayer } from '../../plan/layer';
+import { drawn, type LayerContext, type MapLayer, type MovingPicture } from '../../plan/layer';
 import { FieldLegend } from './FieldLegend';
 import { createFieldPicture, drawField } from './drawPlane';
 import { HALF_SIDE_M, planeQuery } from './plane';
@@ -25,15 +25,9 @@ export const FIELD_LAYER: MapLayer = {
       return plane && isShown() ? createFieldPicture(plane, palette()) : undefined;
     });
     return {
-      moving: () => {
-        const now = field();
-        return (
-          now &&
-          ((ctx, { view, palette, state }) => {
-            drawField(ctx, view, palette, [state.tool_m[0], state.tool_m[1]], now);
-          })
-        );
-      },
+      moving: drawn(field, (ctx, { view, palette, state }: MovingPicture, now) => {
+        drawField(ctx, view, palette, [state.tool_m[0], state.tool_m[1]], now);
+      }),
       underTool: createMemo(() => {
         const now = field();
         return (

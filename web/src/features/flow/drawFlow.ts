@@ -1,8 +1,8 @@
 // Draws the attractor flow: one arrow per place, and a dot where the flow ends before the goal.
 
-import type { Palette } from '../../ui/palette';
 import type { FlowField, SeenMessage } from '../../net/protocol.gen';
-import { pxFromWorld, type View } from '../../plan/transform';
+import type { BasePicture } from '../../plan/layer';
+import { pxFromWorld } from '../../plan/transform';
 import { type Arrow, arrowPath } from '../../plan/arrows';
 import { flowArrows, flowTraps } from './flow';
 import type { Vec2 } from '../../lab/geometry';
@@ -23,8 +23,7 @@ export function createFlow(field: FlowField, goal_m: Vec2, seen: SeenMessage): F
 
 export function drawFlow(
   ctx: CanvasRenderingContext2D,
-  view: View,
-  palette: Palette,
+  { view, palette }: BasePicture,
   flow: Flow,
 ): void {
   ctx.strokeStyle = palette.flow;

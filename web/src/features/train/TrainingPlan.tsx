@@ -69,8 +69,8 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
     return now && wallPath(props.map?.outlines ?? [], now);
   });
   const values = createMemo(() => {
-    const [now, { cells, frame, palette, range }] = [view(), props];
-    return now && cells && frame && createValues(valueCells(cells, frame), palette, now, range);
+    const { cells, frame, palette, range } = props;
+    return cells && frame && createValues(valueCells(cells, frame), palette, range);
   });
   const drawn = createMemo<Base | undefined>(() => {
     const [now, rect, outlines] = [view(), workspace(), walls()];
