@@ -84,7 +84,6 @@ function Magnet(props: {
       { label: 'pull', color: 'tool' },
       { label: 'friction', color: 'bead' },
     ],
-    bands: [],
     xRange: () => [0, 100 * shownOffset(pull().data?.capture_m ?? null)],
     yRange: (max) => [0, Math.max(1.15, 1.05 * max)],
     xText: (value) => (value === 0 ? '' : `${value} cm`),

@@ -2,9 +2,9 @@
 
 import type { Palette } from '../../ui/palette';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { GOAL_RADIUS_M } from '../../net/protocol.gen';
 import type { Sample } from './sample';
 import { distance, type Vec2 } from '../../lab/geometry';
+import { drawGoal } from '../../plan/drawMoving';
 import { drawTrail } from '../../plan/drawTrail';
 
 const DOT_PX = 3;
@@ -50,14 +50,7 @@ export function drawLocus(ctx: Ctx, picture: LocusPicture): void {
   ctx.globalAlpha = 1;
   drawTrail(ctx, view, palette.tool, columns.tool_x_m, columns.tool_y_m);
   drawTrail(ctx, view, palette.bead, columns.bead_x_m, columns.bead_y_m);
-  if (picture.goal_m) {
-    const [x, y] = pxFromWorld(view, picture.goal_m);
-    ctx.beginPath();
-    ctx.arc(x, y, Math.max(DOT_PX, GOAL_RADIUS_M * view.pxPerM), 0, 2 * Math.PI);
-    ctx.strokeStyle = palette.goal;
-    ctx.lineWidth = 1.5;
-    ctx.stroke();
-  }
+  if (picture.goal_m) drawGoal(ctx, view, palette, picture.goal_m);
   ctx.strokeStyle = palette.hand;
   ctx.lineWidth = 1.75;
   ctx.beginPath();
