@@ -9,6 +9,7 @@ import {
   LatheGeometry,
   Matrix4,
   Mesh,
+  MeshBasicMaterial,
   Quaternion,
   Vector2,
   Vector3,
@@ -101,10 +102,17 @@ export class Solids {
   }
 }
 
-/** Frees the graphics memory of `object` and its children. Shared materials stay. */
-export function disposeGeometries(object: Object3D): void {
+/** Frees the graphics memory of `object` and its children. The materials of `Paints` stay. */
+export function dispose(object: Object3D): void {
   object.traverse((one) => {
-    if ('geometry' in one) (one as Mesh).geometry.dispose();
+    if (!('geometry' in one)) return;
+    const { geometry, material } = one as Mesh;
+    geometry.dispose();
+    for (const own of [material].flat()) {
+      if (own.userData.isShared) continue;
+      if (own instanceof MeshBasicMaterial) own.map?.dispose();
+      own.dispose();
+    }
   });
 }
 

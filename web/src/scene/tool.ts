@@ -5,7 +5,7 @@ import { BLOCKS } from '../net/arm.gen';
 import type { Orientation, Rect } from '../net/protocol.gen';
 import { floorMargins } from '../plan/floorPicture';
 import type { Paints } from './paints';
-import { disposeGeometries, type Point, Solids } from './solids';
+import { type Point, Solids } from './solids';
 import { EDGE_M } from './table';
 
 /** Relative to the tool point, which is the middle of the block's lower face. */
@@ -136,9 +136,5 @@ export class Tool {
     this.held.position.set(...at);
     this.held.rotation.z = turn_rad;
     this.portal?.place(at);
-  }
-
-  dispose(): void {
-    disposeGeometries(this.group);
   }
 }
