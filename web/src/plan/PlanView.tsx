@@ -6,7 +6,6 @@ import {
   createMemo,
   createSignal,
   on,
-  onCleanup,
   untrack,
   type Accessor,
   type JSX,
@@ -105,10 +104,6 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     createPainter()(onto, untrack(size), now, ratio);
     return onto;
   };
-  createEffect(() => {
-    if (canvas() && size().width > 0) props.onPicture?.({ size: size(), draw });
-  });
-  onCleanup(() => props.onPicture?.(undefined));
 
   // The geometry on the screen, for tests and other tools that read the page.
   createEffect(() => {
@@ -134,6 +129,8 @@ export function PlanView(props: SurfaceProps): JSX.Element {
           yieldToPage(onto);
         }}
         onSize={setSize}
+        draw={draw}
+        onPicture={props.onPicture}
       />
       <Show when={zoom() !== WHOLE}>
         <button

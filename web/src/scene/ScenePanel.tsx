@@ -52,7 +52,6 @@ export function ScenePanel(
 ): JSX.Element {
   const { lab, interaction, layers, palette } = props;
   const { act, reachPx, focused, cursor } = interaction;
-  const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
@@ -81,7 +80,6 @@ export function ScenePanel(
     }
   };
   const start = (canvas: HTMLCanvasElement): void => {
-    setCanvas(canvas);
     open(canvas).catch((reason: unknown) => {
       setProblem(reason instanceof Error ? reason.message : String(reason));
       props.onProblem?.();
@@ -106,17 +104,6 @@ export function ScenePanel(
     const { width, height } = size();
     drawing()?.resize(width, height);
   });
-  createEffect(() => {
-    const [view, onto] = [drawing(), canvas()];
-    if (!view || !onto || size().width === 0) return;
-    // Its pixels do not stay: they are valid only until the browser shows the frame.
-    const draw = (ratio: number): HTMLCanvasElement => {
-      view.draw(ratio);
-      return onto;
-    };
-    props.onPicture?.({ size: size(), draw });
-  });
-  onCleanup(() => props.onPicture?.(undefined));
   createEffect(
     on(
       () => props.whole?.(),
@@ -199,6 +186,9 @@ export function ScenePanel(
         surface={surface}
         onCanvas={start}
         onSize={setSize}
+        // Its pixels do not stay: they are valid only until the browser shows the frame.
+        draw={drawing()?.draw}
+        onPicture={props.onPicture}
       />
       <Show when={label()}>
         {(now) => (

@@ -198,13 +198,15 @@ export class SceneView {
     });
   };
 
-  draw(wishedRatio = window.devicePixelRatio): void {
+  /** Draws a frame now, if there is something to draw. */
+  readonly draw = (wishedRatio = window.devicePixelRatio): HTMLCanvasElement | undefined => {
     const { setting, now, orbit, renderer } = this;
-    if (!setting || !now) return;
+    if (!setting || !now) return undefined;
     const ratio = Math.min(MAX_PIXEL_RATIO, wishedRatio);
     if (renderer.getPixelRatio() !== ratio) renderer.setPixelRatio(ratio);
     this.paints.fade(HIDING, orbit.hiding());
     setting.bead.fit(orbit.camera);
     renderer.render(this.world, orbit.camera);
-  }
+    return this.canvas;
+  };
 }

@@ -1,6 +1,6 @@
 // The camera's picture in place of the map: the hand sees what the controllers see.
 
-import { createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
+import { createEffect, createMemo, createSignal, type JSX } from 'solid-js';
 import { createCameraBitmap } from '../../lab/cameraBitmap';
 import type { TableView } from '../../lab/geometry';
 import { type Homography, pictureFromTable, tableFromPicture } from '../../lab/homography';
@@ -70,12 +70,6 @@ export function CameraView(
     ctx.arc(...px, 7, 0, 2 * Math.PI);
     ctx.stroke();
   });
-  createEffect(() => {
-    const own = canvas();
-    if (!own || size().width === 0) return;
-    props.onPicture?.({ size: size(), draw: () => own });
-  });
-  onCleanup(() => props.onPicture?.(undefined));
   return (
     <div class="camera-surface">
       <ViewCanvas
@@ -86,6 +80,8 @@ export function CameraView(
         helpId={props.helpId}
         onCanvas={setCanvas}
         onSize={setSize}
+        draw={canvas}
+        onPicture={props.onPicture}
       />
     </div>
   );
