@@ -13,7 +13,7 @@ import {
 import type { Palette } from '../ui/palette';
 import { fitView, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
-import { fogPath } from './fog';
+import { fogImage } from './fog';
 import { type LiveLayer, shownParts } from './layer';
 import { type Base, createPainter, type Picture } from './paint';
 import type { Interaction } from './interaction';
@@ -66,12 +66,9 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   const baseMap = createBaseMap(lab, layers, palette, view, lab.movedWalls);
 
   const moving = createMemo(() => shownParts(layers, 'moving').map(({ drawing }) => drawing));
-  const fog = createMemo(() => {
-    const [now, workspace] = [view(), lab.scene()?.workspace];
-    return now && workspace && lab.sight() !== 'all'
-      ? fogPath(lab.obstacleMap(), workspace, now)
-      : undefined;
-  });
+  const fog = createMemo(() =>
+    lab.sight() === 'all' ? undefined : fogImage(lab.obstacleMap(), palette()),
+  );
   const base = createMemo<Base | undefined>(() => {
     const mapNow = baseMap();
     return mapNow && { map: mapNow, fog: fog() };

@@ -3,6 +3,7 @@
 import { centimetres, newtons } from '../ui/format';
 import { pxFromWorld, type View } from './transform';
 import { FONT } from './drawMap';
+import { circle, cross } from './shapes';
 import type { Palette } from '../ui/palette';
 import { distance, type Vec2 } from '../lab/geometry';
 
@@ -85,8 +86,7 @@ export function drawSpring(
   ctx.lineWidth = 1.75;
   ctx.lineJoin = 'round';
   ctx.stroke();
-  ctx.beginPath();
-  ctx.arc(hand[0], hand[1], 4, 0, 2 * Math.PI);
+  circle(ctx, hand, 4);
   ctx.fillStyle = palette.hand;
   ctx.fill();
   const parts = [newtons(spring.force_n), centimetres(distance(spring.bead_m, spring.hand_m))];
@@ -95,18 +95,8 @@ export function drawSpring(
 }
 
 export function drawCursor(ctx: Ctx, view: View, palette: Palette, cursor: Vec2): void {
-  const [x, y] = pxFromWorld(view, cursor);
   ctx.strokeStyle = palette.focus;
   ctx.lineWidth = 2;
-  ctx.beginPath();
-  for (const [dx, dy] of [
-    [1, 0],
-    [-1, 0],
-    [0, 1],
-    [0, -1],
-  ] as const) {
-    ctx.moveTo(x + 4 * dx, y + 4 * dy);
-    ctx.lineTo(x + 14 * dx, y + 14 * dy);
-  }
+  cross(ctx, pxFromWorld(view, cursor), 14, 4);
   ctx.stroke();
 }

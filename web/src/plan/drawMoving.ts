@@ -4,6 +4,7 @@ import { GOAL_RADIUS_M, type SceneMessage, type StateMessage } from '../net/prot
 import { pxFromWorld, type View } from './transform';
 import type { Palette } from '../ui/palette';
 import type { Vec2 } from '../lab/geometry';
+import { circle, cross } from './shapes';
 
 /** The bead has a diameter of 5 mm. On a small canvas it is enlarged to stay visible. */
 const MIN_BEAD_PX = 4.5;
@@ -14,20 +15,6 @@ type Ctx = CanvasRenderingContext2D;
 
 export function beadRadiusPx(view: View, radius_m: number): number {
   return Math.max(MIN_BEAD_PX, radius_m * view.pxPerM);
-}
-
-function circle(ctx: Ctx, [x, y]: Vec2, radius: number): void {
-  ctx.beginPath();
-  ctx.arc(x, y, radius, 0, 2 * Math.PI);
-}
-
-function cross(ctx: Ctx, [x, y]: Vec2, half: number): void {
-  ctx.beginPath();
-  ctx.moveTo(x - half, y);
-  ctx.lineTo(x + half, y);
-  ctx.moveTo(x, y - half);
-  ctx.lineTo(x, y + half);
-  ctx.stroke();
 }
 
 export function drawGoal(ctx: Ctx, view: View, palette: Palette, goal: Vec2): void {
@@ -41,6 +28,7 @@ export function drawGoal(ctx: Ctx, view: View, palette: Palette, goal: Vec2): vo
   ctx.lineWidth = 2;
   ctx.stroke();
   cross(ctx, at, 6);
+  ctx.stroke();
 }
 
 export function drawBead(
@@ -71,6 +59,7 @@ export function drawBead(
   ctx.strokeStyle = palette.text;
   ctx.lineWidth = 1;
   cross(ctx, pxFromWorld(view, state.bead_tracked_m), TRACKED_PX);
+  ctx.stroke();
 }
 
 /** A dashed line from the tool to where the hand points it. */
@@ -101,16 +90,6 @@ export function drawTool(ctx: Ctx, view: View, palette: Palette, tool: Vec2): vo
   ctx.lineWidth = 2;
   ctx.stroke();
   ctx.lineWidth = 1.25;
-  const [x, y] = at;
-  ctx.beginPath();
-  for (const [dx, dy] of [
-    [1, 0],
-    [-1, 0],
-    [0, 1],
-    [0, -1],
-  ] as const) {
-    ctx.moveTo(x + dx * TOOL_PX, y + dy * TOOL_PX);
-    ctx.lineTo(x + dx * (TOOL_PX + 6), y + dy * (TOOL_PX + 6));
-  }
+  cross(ctx, at, TOOL_PX + 6, TOOL_PX);
   ctx.stroke();
 }

@@ -16,7 +16,7 @@ import { clampToRect, type Vec2 } from '../lab/geometry';
 export interface Base {
   readonly map: BaseMap;
   /** Covers what the camera has not seen; the bead is then drawn where the tracker reports it. */
-  readonly fog: Path2D | undefined;
+  readonly fog: HTMLCanvasElement | undefined;
 }
 
 export interface Picture {
@@ -93,7 +93,10 @@ export function createPainter(): Painter {
   const bases = new Sheet<Base>((ctx, { map, fog }, size, ratio) => {
     grounds.copy(ctx, map.ground, size, ratio);
     paintAbove(ctx, map);
-    if (fog) drawFog(ctx, map.ground, fog);
+    if (!fog) return;
+    drawClipped(ctx, map.ground, (_, ground) => {
+      drawFog(ctx, ground, fog);
+    });
   });
   return (canvas, size, picture, ratio = window.devicePixelRatio) => {
     const ctx = contextOf(canvas, size, ratio);

@@ -68,15 +68,8 @@ export function turnedArrow(
   arrow: readonly [number, number],
   azimuth_rad: number,
 ): [number, number] {
-  const quarters = Math.round(azimuth_rad / (Math.PI / 2));
-  const [cos, sin] = (
-    [
-      [1, 0],
-      [0, 1],
-      [-1, 0],
-      [0, -1],
-    ] as const
-  )[((quarters % 4) + 4) % 4] ?? [1, 0];
+  const quarter_rad = Math.round(azimuth_rad / (Math.PI / 2)) * (Math.PI / 2);
+  const [cos, sin] = [Math.round(Math.cos(quarter_rad)), Math.round(Math.sin(quarter_rad))];
   return [cos * arrow[0] - sin * arrow[1], sin * arrow[0] + cos * arrow[1]];
 }
 

@@ -2,6 +2,7 @@
 
 import type { FlowField, SeenMessage } from '../../net/protocol.gen';
 import type { BasePicture } from '../../plan/layer';
+import { circle } from '../../plan/shapes';
 import { pxFromWorld } from '../../plan/transform';
 import { type Arrow, arrowPath } from '../../plan/arrows';
 import { flowArrows, flowTraps } from './flow';
@@ -38,8 +39,7 @@ export function drawFlow(
   ctx.strokeStyle = palette.floor;
   ctx.lineWidth = 1.5;
   for (const trap of flow.traps) {
-    ctx.beginPath();
-    ctx.arc(...pxFromWorld(view, trap), TRAP_PX, 0, 2 * Math.PI);
+    circle(ctx, pxFromWorld(view, trap), TRAP_PX);
     ctx.fill();
     ctx.stroke();
   }

@@ -5,6 +5,7 @@ import { pxFromWorld, type View } from '../../plan/transform';
 import type { Sample } from './sample';
 import { distance, type Vec2 } from '../../lab/geometry';
 import { drawGoal } from '../../plan/drawMoving';
+import { circle } from '../../plan/shapes';
 import { drawTrail } from '../../plan/drawTrail';
 
 const DOT_PX = 3;
@@ -24,8 +25,7 @@ export interface LocusPicture {
 type Ctx = CanvasRenderingContext2D;
 
 function dot(ctx: Ctx, color: string, edge: string, at: Vec2): void {
-  ctx.beginPath();
-  ctx.arc(at[0], at[1], DOT_PX, 0, 2 * Math.PI);
+  circle(ctx, at, DOT_PX);
   ctx.fillStyle = color;
   ctx.fill();
   ctx.strokeStyle = edge;

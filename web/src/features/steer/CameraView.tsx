@@ -7,6 +7,7 @@ import { type Homography, pictureFromTable, tableFromPicture } from '../../lab/h
 import type { Notices } from '../../lab/slices';
 import { CAMERA_PX } from '../../net/protocol.gen';
 import type { SurfaceProps } from '../../plan/PlanView';
+import { circle } from '../../plan/shapes';
 import { contextOf } from '../../plan/sheet';
 import { type Size, ViewCanvas } from '../../plan/ViewCanvas';
 import './steer.css';
@@ -66,8 +67,7 @@ export function CameraView(
     if (!px) return;
     ctx.strokeStyle = palette().you;
     ctx.lineWidth = 2;
-    ctx.beginPath();
-    ctx.arc(...px, 7, 0, 2 * Math.PI);
+    circle(ctx, px, 7);
     ctx.stroke();
   });
   return (
