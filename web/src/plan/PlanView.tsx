@@ -11,13 +11,14 @@ import {
   type JSX,
 } from 'solid-js';
 import type { Palette } from '../ui/palette';
-import { fitView, tableViewOf, type View } from './transform';
+import { fitView, pxFromWorld, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
 import { fogImage } from './fog';
-import { type LiveLayer, shownParts } from './layer';
+import { type Draw, type LiveLayer, type MovingPicture, shownParts, type UnderTool } from './layer';
 import { type Base, createPainter, type Picture } from './paint';
 import type { Interaction } from './interaction';
-import { type Size, ViewCanvas } from './ViewCanvas';
+import type { Size } from '../ui/size';
+import { ViewCanvas } from './ViewCanvas';
 import type { ViewPicture } from './viewPicture';
 import { type Frame, WHOLE, type Zoom, zoomedView } from './zoom';
 import { yieldToPage, zooming } from './zooming';
@@ -38,6 +39,13 @@ export interface SurfaceProps {
   /** Called with the view when it can be drawn, and with nothing when it closes. */
   readonly onPicture?: (picture: ViewPicture | undefined) => void;
 }
+
+const atTool =
+  ({ draw }: UnderTool): Draw<MovingPicture> =>
+  (ctx, { view, palette, state }) => {
+    const [originX, originY] = pxFromWorld(view, [state.tool_m[0], state.tool_m[1]]);
+    draw(ctx, { ...view, originX, originY }, palette);
+  };
 
 export function PlanView(props: SurfaceProps): JSX.Element {
   const { lab, interaction, layers, palette } = props;
@@ -65,7 +73,10 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   });
   const baseMap = createBaseMap(lab, layers, palette, view, lab.movedWalls);
 
-  const moving = createMemo(() => shownParts(layers, 'moving').map(({ drawing }) => drawing));
+  const moving = createMemo(() => [
+    ...shownParts(layers, 'underTool').map(({ drawing }) => atTool(drawing)),
+    ...shownParts(layers, 'moving').map(({ drawing }) => drawing),
+  ]);
   const fog = createMemo(() =>
     lab.sight() === 'all' ? undefined : fogImage(lab.obstacleMap(), palette()),
   );

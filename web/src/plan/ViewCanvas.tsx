@@ -4,13 +4,9 @@ import { createEffect, createSignal, onCleanup, onMount, type JSX } from 'solid-
 import { attachInput } from './input';
 import type { Interaction, Surface } from './interaction';
 import type { ByHand, Session, Trial } from '../lab/slices';
+import { onSize, type Size } from '../ui/size';
 import type { ViewPicture } from './viewPicture';
 import './ViewCanvas.css';
-
-export interface Size {
-  readonly width: number;
-  readonly height: number;
-}
 
 export function ViewCanvas(props: {
   lab: Pick<Session, 'canOperate'> & Trial & Pick<ByHand, 'steering'>;
@@ -33,10 +29,7 @@ export function ViewCanvas(props: {
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
 
   onMount(() => {
-    const observer = new ResizeObserver(() => {
-      setSize({ width: canvas.clientWidth, height: canvas.clientHeight });
-    });
-    observer.observe(canvas);
+    onSize(canvas, setSize);
     const open = new AbortController();
     const surface: Surface = {
       motion: () => undefined,
@@ -47,7 +40,6 @@ export function ViewCanvas(props: {
     interaction.enter(surface);
     attachInput(canvas, lab, interaction, surface, open.signal);
     onCleanup(() => {
-      observer.disconnect();
       open.abort();
       interaction.leave();
       props.onPicture?.(undefined);

@@ -4,7 +4,7 @@ import type { Palette } from '../ui/palette';
 import { pxFromWorld, type View } from './transform';
 import { type ValueCells, valueArrows, valuePicture, type ValuePicture } from './values';
 import { arrowPath } from './arrows';
-import { heatRamp } from './colourRamp';
+import { heatRamp, type Range } from './colourRamp';
 import { imageOf } from './pixels';
 
 export interface Values {
@@ -14,11 +14,7 @@ export interface Values {
 }
 
 /** `range` has the values of the first and the last colour. */
-export function createValues(
-  map: ValueCells,
-  palette: Palette,
-  range?: readonly [number, number],
-): Values | undefined {
+export function createValues(map: ValueCells, palette: Palette, range?: Range): Values | undefined {
   const picture = valuePicture(map, heatRamp(palette), range);
   return picture && { map, picture, image: imageOf(picture.pixels, picture.columns) };
 }

@@ -23,7 +23,7 @@ export interface MovingPicture extends BasePicture {
 
 export type Draw<P extends BasePicture> = (ctx: CanvasRenderingContext2D, picture: P) => void;
 
-/** A square picture with its middle below the tool. The 3-D scene moves it with the tool. */
+/** A square picture with its middle below the tool, around the origin of the view. It moves with the tool. */
 export interface UnderTool {
   readonly halfSide_m: number;
   readonly draw: (ctx: CanvasRenderingContext2D, view: View, palette: Palette) => void;
@@ -34,6 +34,7 @@ interface Drawings {
   readonly aboveWalls: Draw<BasePicture>;
   /** Drawn with every state, above the base map and below goal, tool and bead. */
   readonly moving: Draw<MovingPicture>;
+  /** Drawn below those. */
   readonly underTool: UnderTool;
 }
 

@@ -9,8 +9,9 @@ import { drawFog } from './fog';
 import type { Act } from './gesture';
 import type { Draw, MovingPicture } from './layer';
 import { contextOf, Sheet } from './sheet';
-import type { Size } from './ViewCanvas';
-import { clampToRect, type Vec2 } from '../lab/geometry';
+import type { Size } from '../ui/size';
+import { clampToRect, distance, type Vec2 } from '../lab/geometry';
+import { centimetres, newtons } from '../ui/format';
 
 /** What does not change with every state. */
 export interface Base {
@@ -35,36 +36,31 @@ export interface Picture {
 
 type Ctx = CanvasRenderingContext2D;
 
-/** Remarks about a hold: that the bead is lifted, or when it moves while paused. */
-export function remarkOf(act: Act, state: StateMessage): string {
-  const remarks: string[] = [];
-  if (act.kind === 'held' && act.lift) remarks.push('lifted');
-  if (!state.running) remarks.push('moves there on release');
-  return remarks.join(', ');
+/** How the hand pulls the bead. */
+export interface Pull {
+  readonly hand_m: Vec2;
+  readonly isLifted: boolean;
+  /** Force, length of the spring, and remarks: that the bead is lifted, or when it moves while paused. */
+  readonly words: string;
 }
 
-/** The hand's place: the own pointer is newer than the server's echo of it; a viewer sees the echo. */
-export function handOf(act: Act, state: StateMessage, scene: SceneMessage): Vec2 | undefined {
-  return act.kind === 'held' ? clampToRect(scene.workspace, act.at) : (state.hand_m ?? undefined);
+/** The own pointer is newer than the server's echo of it; a viewer sees the echo. */
+export function pullOf(act: Act, state: StateMessage, scene: SceneMessage): Pull | undefined {
+  const own = act.kind === 'held' ? act : undefined;
+  const hand_m = own ? clampToRect(scene.workspace, own.at) : state.hand_m;
+  if (!hand_m) return undefined;
+  const stretched_m = distance([state.bead_m[0], state.bead_m[1]], hand_m);
+  const isLifted = own?.lift ?? false;
+  const remarks = [isLifted && 'lifted', !state.running && 'moves there on release'];
+  const parts = [newtons(state.hand_force_n), centimetres(stretched_m)];
+  const remark = remarks.filter(Boolean).join(', ');
+  return { hand_m, isLifted, words: [...parts, ...(remark ? [remark] : [])].join(' · ') };
 }
 
 /** The bead where the tracker reports it. */
 function asTracked(state: StateMessage): StateMessage {
   const [x, y] = state.bead_tracked_m;
   return { ...state, bead_m: [x, y, state.bead_m[2]] };
-}
-
-function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
-  const { act, base } = picture;
-  const { view, palette, scene } = base.map.ground;
-  const hand_m = handOf(act, state, scene);
-  if (!hand_m) return;
-  drawSpring(ctx, view, palette, widthPx, {
-    bead_m: [state.bead_m[0], state.bead_m[1]],
-    hand_m,
-    force_n: state.hand_force_n,
-    remark: remarkOf(act, state),
-  });
 }
 
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
@@ -77,7 +73,9 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: nu
   drawTool(ctx, view, palette, tool);
   const shown = picture.base.fog ? asTracked(state) : state;
   drawBead(ctx, view, palette, scene, shown, picture.grabRadiusPx);
-  paintSpring(ctx, picture, state, widthPx);
+  const pull = pullOf(picture.act, state, scene);
+  const bead: Vec2 = [state.bead_m[0], state.bead_m[1]];
+  if (pull) drawSpring(ctx, view, palette, widthPx, bead, pull);
 }
 
 export type Painter = (

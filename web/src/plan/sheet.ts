@@ -1,6 +1,6 @@
 // Canvases that are cleared, and such that are kept.
 
-import type { Size } from './ViewCanvas';
+import type { Size } from '../ui/size';
 
 type Ctx = CanvasRenderingContext2D;
 

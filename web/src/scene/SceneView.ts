@@ -8,7 +8,8 @@ import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { UnderTool } from '../plan/layer';
 import type { FloorPicture } from '../plan/floorPicture';
 import { Arm, HIDING } from './arm';
-import { Bead, type Pull } from './bead';
+import type { Pull } from '../plan/paint';
+import { Bead } from './bead';
 import { OrbitCamera } from './orbitCamera';
 import { Floor, underTool } from './floor';
 import { Light } from './light';
@@ -21,9 +22,8 @@ import { Tool } from './tool';
 import type { TableView, Vec2 } from '../lab/geometry';
 
 const MAX_PIXEL_RATIO = 2;
-
-/** This browser cannot draw 3-D. */
-export class NoWebGl extends Error {}
+const NO_WEBGL =
+  'This browser cannot show the 3-D view: it has no WebGL 2, or WebGL 2 is switched off.';
 
 export interface Now {
   readonly state: StateMessage;
@@ -60,6 +60,7 @@ export class SceneView {
   private now: Now | undefined;
   private frame: number | undefined;
 
+  /** Throws an error for the user if this browser cannot draw 3-D. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private palette: Palette,
@@ -70,7 +71,7 @@ export class SceneView {
   ) {
     // Requested here, because the library logs an error if there is no context.
     const context = canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
-    if (!context) throw new NoWebGl();
+    if (!context) throw new Error(NO_WEBGL);
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.setClearAlpha(0);
     this.renderer.localClippingEnabled = true;

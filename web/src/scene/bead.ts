@@ -5,7 +5,7 @@ import type { PerspectiveCamera } from 'three';
 import type { StateMessage } from '../net/protocol.gen';
 import { ORDER, type Paints } from './paints';
 import { Strokes } from './strokes';
-import type { Vec2 } from '../lab/geometry';
+import type { Pull } from '../plan/paint';
 
 /** The bead has a diameter of 5 mm. From a distance it is enlarged to stay visible. */
 const MIN_RADIUS_PX = 5;
@@ -60,11 +60,6 @@ function coil(paints: Paints): Strokes {
   return spring.line(0, 0, 1).done();
 }
 
-export interface Pull {
-  readonly hand_m: Vec2;
-  readonly lifted: boolean;
-}
-
 export class Bead {
   readonly group = new Group();
   private readonly ball: Mesh;
@@ -106,7 +101,7 @@ export class Bead {
     grip.visible = pull !== undefined;
     spring.visible = pull !== undefined;
     if (!pull) return;
-    grip.position.set(...pull.hand_m, pull.lifted ? LIFTED_UP_M : HAND_UP_M);
+    grip.position.set(...pull.hand_m, pull.isLifted ? LIFTED_UP_M : HAND_UP_M);
     along.subVectors(grip.position, at);
     const length_m = along.length();
     const radius_m = Math.min(COIL_M, 0.15 * length_m);

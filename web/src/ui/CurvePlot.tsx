@@ -5,6 +5,7 @@ import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import type { Theme } from './theme';
 import { createCurve, type CurveContext, type CurveLine, showCursor } from './curve';
+import { onSize } from './size';
 import './plot.css';
 
 export function CurvePlot(props: {
@@ -25,12 +26,10 @@ export function CurvePlot(props: {
   let root!: HTMLDivElement;
   onMount(() => {
     const plot = createCurve(root, props.context);
-    const observer = new ResizeObserver(() => {
-      plot.setSize({ width: root.clientWidth, height: root.clientHeight });
+    onSize(root, (size) => {
+      plot.setSize(size);
     });
-    observer.observe(root);
     onCleanup(() => {
-      observer.disconnect();
       plot.destroy();
     });
     createEffect(() => {

@@ -1,10 +1,9 @@
-// Draws the magnetic field layer. It moves with the tool.
+// Draws the magnetic field layer.
 
 import type { Palette } from '../../ui/palette';
 import type { Plane } from '../../net/protocol.gen';
 import { pxFromWorld, type View } from '../../plan/transform';
 import { HALF_SIDE_M, planeArrows, planePixels, SIDE_PX } from './plane';
-import type { Vec2 } from '../../lab/geometry';
 import { type Arrow, arrowPath } from '../../plan/arrows';
 import type { Ramp } from '../../plan/colourRamp';
 import { imageOf } from '../../plan/pixels';
@@ -21,26 +20,17 @@ export function createFieldPicture(plane: Plane, palette: Palette): FieldPicture
   return { image: imageOf(planePixels(plane, ramp), SIDE_PX), arrows: planeArrows(plane) };
 }
 
+/** Around the origin of the view. */
 export function drawField(
   ctx: CanvasRenderingContext2D,
   view: View,
   palette: Palette,
-  [x_m, y_m]: Vec2,
   field: FieldPicture,
 ): void {
   const side = 2 * HALF_SIDE_M * view.pxPerM;
-  ctx.imageSmoothingEnabled = true;
-  ctx.drawImage(
-    field.image,
-    ...pxFromWorld(view, [x_m - HALF_SIDE_M, y_m + HALF_SIDE_M]),
-    side,
-    side,
-  );
-  const [originX, originY] = pxFromWorld(view, [x_m, y_m]);
-  ctx.save();
+  ctx.drawImage(field.image, ...pxFromWorld(view, [-HALF_SIDE_M, HALF_SIDE_M]), side, side);
   ctx.strokeStyle = palette.text;
   ctx.lineWidth = 1;
   ctx.globalAlpha = ARROW_ALPHA;
-  ctx.stroke(arrowPath({ ...view, originX, originY }, field.arrows));
-  ctx.restore();
+  ctx.stroke(arrowPath(view, field.arrows));
 }

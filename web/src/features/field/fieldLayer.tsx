@@ -3,7 +3,7 @@
 import { createMemo } from 'solid-js';
 import type { Plane, PlaneQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
-import { drawn, type LayerContext, type MapLayer, type MovingPicture } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import { FieldLegend } from './FieldLegend';
 import { createFieldPicture, drawField } from './drawPlane';
 import { HALF_SIDE_M, planeQuery } from './plane';
@@ -25,16 +25,13 @@ export const FIELD_LAYER: MapLayer = {
       return plane && isShown() ? createFieldPicture(plane, palette()) : undefined;
     });
     return {
-      moving: drawn(field, (ctx, { view, palette, state }: MovingPicture, now) => {
-        drawField(ctx, view, palette, [state.tool_m[0], state.tool_m[1]], now);
-      }),
       underTool: createMemo(() => {
         const now = field();
         return (
           now && {
             halfSide_m: HALF_SIDE_M,
             draw: (ctx, view, palette) => {
-              drawField(ctx, view, palette, [0, 0], now);
+              drawField(ctx, view, palette, now);
             },
           }
         );

@@ -1,7 +1,8 @@
 // The locus: the part of the figure in the plane, with its caption.
 
-import { createEffect, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
+import { createEffect, createMemo, createSignal, onMount, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
+import { onSize } from '../../ui/size';
 import type { Palette } from '../../ui/palette';
 import { drawBorder, drawFloor, wallPath } from '../../plan/drawMap';
 import { contextOf } from '../../plan/sheet';
@@ -51,13 +52,7 @@ export function LocusPlot(props: {
   };
 
   onMount(() => {
-    const observer = new ResizeObserver(() => {
-      setSize({ width: canvas.clientWidth, height: canvas.clientHeight });
-    });
-    observer.observe(canvas);
-    onCleanup(() => {
-      observer.disconnect();
-    });
+    onSize(canvas, setSize);
     createEffect(() => {
       const [now, workspace, outlines] = [view(), lab.scene()?.workspace, walls()];
       const [{ sample }, palette] = [props, props.palette()];

@@ -27,8 +27,7 @@ function Tools(props: {
 }): JSX.Element {
   const { lab, figure } = props;
   const save = async (kind: (typeof FILES)[number]): Promise<void> => {
-    figure.renew();
-    const [sample, scene, state] = [figure.sample(), lab.scene(), lab.state()];
+    const [sample, scene, state] = [figure.take(), lab.scene(), lab.state()];
     if (!sample || !scene || !state) return;
     const put = (content: BlobPart, type: string): void => {
       const name = `ferry-${scene.map}-seed${scene.seed}-tick${state.tick}`;
@@ -97,13 +96,14 @@ function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.E
   const { lab } = props;
   const palette = createPalette(() => props.theme());
   const figure = createFigure(lab);
+  let sample: Sample | undefined;
   const samples = [...PARTS, LOCUS_LETTER].map(() => createSignal<Sample>());
   const rotation = new Rotation(
     samples.length,
     () => {
-      figure.renew();
+      sample = figure.take();
     },
-    (part) => samples[part]?.[1](figure.sample()),
+    (part) => samples[part]?.[1](sample),
     (work) => requestAnimationFrame(work),
   );
   createEffect(

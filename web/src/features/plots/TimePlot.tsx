@@ -2,38 +2,17 @@
 
 import { createMemo, type JSX } from 'solid-js';
 import { CurvePlot } from '../../ui/CurvePlot';
-import type { CurveContext, Rule } from '../../ui/curve';
+import type { CurveContext } from '../../ui/curve';
 import { clock, fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import type { Figure } from './figure';
-import { type Part, partRange } from './parts';
+import { linesOf, type Part, partRange, rulesOf } from './parts';
 import { nearestIndex, type Sample } from './sample';
-
-/** The present time is marked only if it is at least this far before the newest sample. */
-const BEHIND_S = 0.02;
 
 /** Number of decimals needed to distinguish multiples of `step`. */
 function decimals(step: number): number {
   return String(step).split('.')[1]?.length ?? 0;
-}
-
-/** Disturbances, the present time after a rewind, and the threshold. */
-function rulesOf(part: Part, sample: Sample | undefined, threshold_m: number | undefined): Rule[] {
-  const rule = { axis: 'x', label: '', dashed: false } as const;
-  const rules: Rule[] = (sample?.struck ?? []).map(({ time_s }) => ({
-    ...rule,
-    at: time_s,
-    color: 'hand',
-  }));
-  if (sample && sample.at_s < (sample.columns.sim_time_s.at(-1) ?? 0) - BEHIND_S) {
-    rules.push({ ...rule, at: sample.at_s, color: 'focus', isStrong: true });
-  }
-  if (part.threshold && threshold_m !== undefined) {
-    const at = threshold_m * part.scale;
-    rules.push({ axis: 'y', at, label: 'T', color: 'danger', dashed: true });
-  }
-  return rules;
 }
 
 export function TimePlot(props: {
@@ -47,11 +26,7 @@ export function TimePlot(props: {
 }): JSX.Element {
   const { part, figure } = props;
   const times = (): Float64Array => props.sample?.columns.sim_time_s ?? new Float64Array();
-  const lines = createMemo(() =>
-    part.lines.map(
-      ({ column }) => props.sample?.columns[column].map((value) => value * part.scale) ?? [],
-    ),
-  );
+  const lines = createMemo(() => linesOf(part, props.sample));
   /** At the cursor, otherwise at the present time. */
   const marked = createMemo(() =>
     nearestIndex(times(), figure.pointed_s() ?? props.sample?.at_s ?? 0),

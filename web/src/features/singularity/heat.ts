@@ -8,7 +8,7 @@ import type {
   WorkspaceMap,
   WorkspaceQuery,
 } from '../../net/protocol.gen';
-import { type Ramp, rampColour } from '../../plan/colourRamp';
+import { colourOf, type Ramp, type Range, rangeOf } from '../../plan/colourRamp';
 import { gridPixels } from '../../plan/pixels';
 
 /** Fine enough to look smooth on the paper's workspace and on a table of two metres. */
@@ -43,15 +43,10 @@ export function isRefused(map: WorkspaceMap, value_m3: number | null | undefined
 }
 
 /** Smallest and greatest value of the cells that are not refused. */
-export function heatRange(map: WorkspaceMap): [number, number] | undefined {
-  let range: [number, number] | undefined;
-  for (const value_m3 of map.manipulability_m3) {
-    if (value_m3 === null || isRefused(map, value_m3)) continue;
-    range = range
-      ? [Math.min(range[0], value_m3), Math.max(range[1], value_m3)]
-      : [value_m3, value_m3];
-  }
-  return range;
+export function heatRange(map: WorkspaceMap): Range | undefined {
+  return rangeOf(
+    map.manipulability_m3.filter((value_m3): value_m3 is number => !isRefused(map, value_m3)),
+  );
 }
 
 /**
@@ -59,12 +54,11 @@ export function heatRange(map: WorkspaceMap): [number, number] | undefined {
  * edge there.
  */
 export function heatPixels(map: WorkspaceMap, ramp: Ramp): Uint8ClampedArray<ArrayBuffer> {
-  const [least_m3, greatest_m3] = heatRange(map) ?? [0, 0];
-  const span_m3 = greatest_m3 - least_m3;
-  return gridPixels(map.columns, map.rows, (cell) => {
-    const above_m3 = (map.manipulability_m3[cell] ?? 0) - least_m3;
-    return [...rampColour(ramp, span_m3 > 0 ? above_m3 / span_m3 : 0), 255];
-  });
+  const range_m3 = heatRange(map) ?? [0, 0];
+  return gridPixels(map.columns, map.rows, (cell) => [
+    ...colourOf(ramp, range_m3, map.manipulability_m3[cell] ?? 0),
+    255,
+  ]);
 }
 
 export function refusedRuns(map: WorkspaceMap): Run[] {

@@ -9,7 +9,8 @@ import { CAMERA_PX } from '../../net/protocol.gen';
 import type { SurfaceProps } from '../../plan/PlanView';
 import { circle } from '../../plan/shapes';
 import { contextOf } from '../../plan/sheet';
-import { type Size, ViewCanvas } from '../../plan/ViewCanvas';
+import { ViewCanvas } from '../../plan/ViewCanvas';
+import type { Size } from '../../ui/size';
 import './steer.css';
 
 /** The square of the picture inside the canvas. */

@@ -12,7 +12,7 @@ import { wallPath } from '../../plan/drawMap';
 import { createValues } from '../../plan/drawValues';
 import { contextOf } from '../../plan/sheet';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
-import type { Size } from '../../plan/ViewCanvas';
+import type { Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
 import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
