@@ -115,12 +115,8 @@ export function PlanView(props: SurfaceProps): JSX.Element {
 
   // The geometry on the screen, for tests and other tools that read the page.
   createEffect(() => {
-    const now = view();
     const onto = canvas();
-    if (!now || !onto) return;
-    onto.dataset.pxPerM = String(now.pxPerM);
-    onto.dataset.originX = String(now.originX);
-    onto.dataset.originY = String(now.originY);
+    if (onto) Object.assign(onto.dataset, view());
   });
 
   return (

@@ -8,6 +8,7 @@ import { type BasePicture, type Draw, type LiveLayer, shownParts } from './layer
 import { pxRect, type View } from './transform';
 import type { MovedWalls } from '../lab/movedWalls';
 import type { Trial } from '../lab/slices';
+import type { Ctx } from './sheet';
 
 /** Floor and walls, with the layers between them. */
 export interface Ground extends BasePicture {
@@ -22,22 +23,16 @@ export interface BaseMap {
   readonly aboveWalls: readonly Draw<BasePicture>[];
 }
 
-type Ctx = CanvasRenderingContext2D;
-
 /** Clips to the workspace, because larger pictures would cover the numbers of the axes. */
-export function drawClipped<P extends BasePicture>(ctx: Ctx, picture: P, draw: Draw<P>): void {
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(...pxRect(picture.view, picture.scene.workspace));
-  ctx.clip();
-  draw(ctx, picture);
-  ctx.restore();
-}
-
-const clipped =
-  (draw: Draw<BasePicture>): Draw<BasePicture> =>
+export const clipped =
+  <P extends BasePicture>(draw: Draw<P>): Draw<P> =>
   (ctx, picture) => {
-    drawClipped(ctx, picture, draw);
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(...pxRect(picture.view, picture.scene.workspace));
+    ctx.clip();
+    draw(ctx, picture);
+    ctx.restore();
   };
 
 export function createBaseMap(

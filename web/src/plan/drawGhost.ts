@@ -4,12 +4,11 @@ import type { Vec2 } from '../lab/geometry';
 import type { Palette } from '../ui/palette';
 import { circle } from './shapes';
 import { pxFromWorld, type View } from './transform';
+import type { Ctx } from './sheet';
 
 const TOOL_PX = 7;
 const BEAD_PX = 3.5;
 const FONT = '600 11px system-ui, sans-serif';
-
-type Ctx = CanvasRenderingContext2D;
 
 export interface DrawnGhost {
   readonly colour: string;

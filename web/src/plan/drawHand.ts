@@ -5,6 +5,7 @@ import { FONT } from './drawMap';
 import { circle, cross } from './shapes';
 import type { Palette } from '../ui/palette';
 import { distance, type Vec2 } from '../lab/geometry';
+import type { Ctx } from './sheet';
 
 const COIL_PX = 7;
 const COIL_HALF_WIDTH_PX = 5;
@@ -13,8 +14,6 @@ const LEAD_PX = 6;
 const LABEL_OFFSET_PX = 16;
 const LABEL_PADDING_PX = 6;
 const LABEL_HEIGHT_PX = 20;
-
-type Ctx = CanvasRenderingContext2D;
 
 /** Corners of a zigzag spring from `a` to `b`, in pixels. */
 function springPoints(a: Vec2, b: Vec2): [number, number][] {

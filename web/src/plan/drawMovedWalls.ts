@@ -5,6 +5,7 @@ import type { Rect } from '../net/protocol.gen';
 import type { Palette } from '../ui/palette';
 import { drawBorder, EDGE_PX } from './drawMap';
 import { pxRect, type View } from './transform';
+import type { Ctx } from './sheet';
 
 /** A path around what is not free. The outlines are moved into the walls by `into_px`. */
 function wallPath(table: Path2D, walls: MovedWalls, view: View, into_px: number): Path2D {
@@ -25,7 +26,7 @@ function wallPath(table: Path2D, walls: MovedWalls, view: View, into_px: number)
 }
 
 export function drawMovedWalls(
-  ctx: CanvasRenderingContext2D,
+  ctx: Ctx,
   rect: Rect,
   walls: MovedWalls,
   view: View,

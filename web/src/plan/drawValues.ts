@@ -6,6 +6,7 @@ import { type ValueCells, valueArrows, valuePicture, type ValuePicture } from '.
 import { arrowPath } from './arrows';
 import { heatRamp, type Range } from './colourRamp';
 import { imageOf } from './pixels';
+import type { Ctx } from './sheet';
 
 export interface Values {
   readonly map: ValueCells;
@@ -19,11 +20,7 @@ export function createValues(map: ValueCells, palette: Palette, range?: Range): 
   return picture && { map, picture, image: imageOf(picture.pixels, picture.columns) };
 }
 
-export function drawColours(
-  ctx: CanvasRenderingContext2D,
-  view: View,
-  { map, picture, image }: Values,
-): void {
+export function drawColours(ctx: Ctx, view: View, { map, picture, image }: Values): void {
   const side = map.spacing_m * view.pxPerM;
   // No smoothing: each cell has its own value.
   ctx.imageSmoothingEnabled = false;
@@ -31,12 +28,7 @@ export function drawColours(
   ctx.drawImage(image, ...at, picture.columns * side, picture.rows * side);
 }
 
-export function drawArrows(
-  ctx: CanvasRenderingContext2D,
-  view: View,
-  palette: Palette,
-  { map }: Values,
-): void {
+export function drawArrows(ctx: Ctx, view: View, palette: Palette, { map }: Values): void {
   ctx.strokeStyle = palette.text;
   ctx.lineWidth = 1;
   ctx.globalAlpha = 0.55;

@@ -4,7 +4,7 @@ import type { SeenMessage } from '../net/protocol.gen';
 import type { Palette } from '../ui/palette';
 import { seenCells, UNKNOWN } from '../lab/obstacleMap';
 import { rgb } from './colourRamp';
-import type { BasePicture } from './layer';
+import type { BasePicture, Draw } from './layer';
 import { gridPixels, imageOf, type Rgba } from './pixels';
 import { pxRect } from './transform';
 
@@ -24,12 +24,10 @@ export function fogImage(seen: SeenMessage | undefined, palette: Palette): HTMLC
   return imageOf(fogPixels(seen, palette), seen?.columns ?? 1);
 }
 
-export function drawFog(
-  ctx: CanvasRenderingContext2D,
-  { view, scene }: BasePicture,
-  fog: HTMLCanvasElement,
-): void {
-  // No smoothing: cells have sharp edges.
-  ctx.imageSmoothingEnabled = false;
-  ctx.drawImage(fog, ...pxRect(view, scene.workspace));
-}
+export const drawFog =
+  (fog: HTMLCanvasElement): Draw<BasePicture> =>
+  (ctx, { view, scene }) => {
+    // No smoothing: cells have sharp edges.
+    ctx.imageSmoothingEnabled = false;
+    ctx.drawImage(fog, ...pxRect(view, scene.workspace));
+  };

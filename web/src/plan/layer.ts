@@ -6,6 +6,7 @@ import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { Palette } from '../ui/palette';
 import type { View } from './transform';
 import type { Lab } from '../lab/slices';
+import type { Ctx } from './sheet';
 
 /** Headings of the menu, in its order. */
 export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm'] as const;
@@ -21,12 +22,12 @@ export interface MovingPicture extends BasePicture {
   readonly history: History;
 }
 
-export type Draw<P extends BasePicture> = (ctx: CanvasRenderingContext2D, picture: P) => void;
+export type Draw<P extends BasePicture> = (ctx: Ctx, picture: P) => void;
 
 /** A square picture with its middle below the tool, around the origin of the view. It moves with the tool. */
 export interface UnderTool {
   readonly halfSide_m: number;
-  readonly draw: (ctx: CanvasRenderingContext2D, view: View, palette: Palette) => void;
+  readonly draw: (ctx: Ctx, view: View, palette: Palette) => void;
 }
 
 interface Drawings {
@@ -50,7 +51,7 @@ export interface LayerParts extends DrawnParts {
 /** A part that draws something while it is there. */
 export function drawn<P extends BasePicture, T>(
   thing: Accessor<T | undefined>,
-  draw: (ctx: CanvasRenderingContext2D, picture: P, thing: T) => void,
+  draw: (ctx: Ctx, picture: P, thing: T) => void,
 ): Accessor<Draw<P> | undefined> {
   return () => {
     const now = thing();

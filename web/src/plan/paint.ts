@@ -2,13 +2,13 @@
 
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import { type BaseMap, type Ground, drawClipped, paintAbove, paintGround } from './baseMap';
+import { type BaseMap, type Ground, clipped, paintAbove, paintGround } from './baseMap';
 import { drawCursor, drawSpring } from './drawHand';
-import { drawBead, drawGoal, drawSteering, drawTool } from './drawMoving';
+import { drawBead, drawGoal, drawSteering, drawTool, drawTracked } from './drawMoving';
 import { drawFog } from './fog';
 import type { Act } from './gesture';
 import type { Draw, MovingPicture } from './layer';
-import { contextOf, Sheet } from './sheet';
+import { type Ctx, contextOf, Sheet } from './sheet';
 import type { Size } from '../ui/size';
 import { clampToRect, distance, type Vec2 } from '../lab/geometry';
 import { centimetres, newtons } from '../ui/format';
@@ -34,8 +34,6 @@ export interface Picture {
   readonly steer_m: Vec2 | undefined;
 }
 
-type Ctx = CanvasRenderingContext2D;
-
 /** How the hand pulls the bead. */
 export interface Pull {
   readonly hand_m: Vec2;
@@ -57,46 +55,36 @@ export function pullOf(act: Act, state: StateMessage, scene: SceneMessage): Pull
   return { hand_m, isLifted, words: [...parts, ...(remark ? [remark] : [])].join(' · ') };
 }
 
-/** The bead where the tracker reports it. */
-function asTracked(state: StateMessage): StateMessage {
-  const [x, y] = state.bead_tracked_m;
-  return { ...state, bead_m: [x, y, state.bead_m[2]] };
-}
-
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
   const { view, palette, scene } = picture.base.map.ground;
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
   const moving = { view, palette, scene, state, history: picture.history };
-  for (const draw of picture.moving) drawClipped(ctx, moving, draw);
+  for (const draw of picture.moving) clipped(draw)(ctx, moving);
   if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
   if (picture.steer_m) drawSteering(ctx, view, palette, tool, picture.steer_m);
   drawTool(ctx, view, palette, tool);
-  const shown = picture.base.fog ? asTracked(state) : state;
-  drawBead(ctx, view, palette, scene, shown, picture.grabRadiusPx);
+  const bead_m = picture.base.fog ? state.bead_tracked_m : state.bead_m;
+  const bead: Vec2 = [bead_m[0], bead_m[1]];
+  drawBead(ctx, view, palette, bead, scene.bead_radius_m, picture.grabRadiusPx);
+  drawTracked(ctx, view, palette, state.bead_tracked_m);
   const pull = pullOf(picture.act, state, scene);
-  const bead: Vec2 = [state.bead_m[0], state.bead_m[1]];
   if (pull) drawSpring(ctx, view, palette, widthPx, bead, pull);
 }
 
-export type Painter = (
-  canvas: HTMLCanvasElement,
-  size: Size,
-  picture: Picture,
-  ratio?: number,
-) => void;
-
 /** It keeps what does not change from one picture to the next. */
-export function createPainter(): Painter {
+export function createPainter() {
   const grounds = new Sheet<Ground>(paintGround);
   const bases = new Sheet<Base>((ctx, { map, fog }, size, ratio) => {
     grounds.copy(ctx, map.ground, size, ratio);
     paintAbove(ctx, map);
-    if (!fog) return;
-    drawClipped(ctx, map.ground, (_, ground) => {
-      drawFog(ctx, ground, fog);
-    });
+    if (fog) clipped(drawFog(fog))(ctx, map.ground);
   });
-  return (canvas, size, picture, ratio = window.devicePixelRatio) => {
+  return (
+    canvas: HTMLCanvasElement,
+    size: Size,
+    picture: Picture,
+    ratio = window.devicePixelRatio,
+  ): void => {
     const ctx = contextOf(canvas, size, ratio);
     if (!ctx) return;
     const { base, state, cursor } = picture;

@@ -1,8 +1,7 @@
 // Paths of small marks, in pixels.
 
 import type { Vec2 } from '../lab/geometry';
-
-type Ctx = CanvasRenderingContext2D;
+import type { Ctx } from './sheet';
 
 export function circle(ctx: Ctx, [x, y]: Vec2, radius: number): void {
   ctx.beginPath();

@@ -2,7 +2,7 @@
 
 import type { Size } from '../ui/size';
 
-type Ctx = CanvasRenderingContext2D;
+export type Ctx = CanvasRenderingContext2D;
 
 /** The canvas, cleared, with one unit per CSS pixel. */
 export function contextOf(

@@ -3,12 +3,11 @@
 import type { OverlayMessage } from '../../net/protocol.gen';
 import type { BasePicture, MovingPicture } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
+import type { Ctx } from '../../plan/sheet';
 
 /** Exponent of the superellipse that represents an obstacle. */
 const SUPERELLIPSE = 4;
 const OUTLINE_POINTS = 40;
-
-type Ctx = CanvasRenderingContext2D;
 
 export function drawFootprint(ctx: Ctx, { view, palette, scene, state }: MovingPicture): void {
   const [toolX_m, toolY_m] = state.tool_m;

@@ -4,11 +4,9 @@ import type { Vec2 } from '../../lab/geometry';
 import type { MovingPicture } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
 import { sectorsOf } from './sectors';
+import type { Ctx } from '../../plan/sheet';
 
-export function drawCapture(
-  ctx: CanvasRenderingContext2D,
-  { view, palette, scene, state }: MovingPicture,
-): void {
+export function drawCapture(ctx: Ctx, { view, palette, scene, state }: MovingPicture): void {
   const [toolX_m, toolY_m] = state.tool_m;
   const px = ([x_m, y_m]: Vec2): Vec2 => pxFromWorld(view, [toolX_m + x_m, toolY_m + y_m]);
   const [fill, edge] = [new Path2D(), new Path2D()];

@@ -7,6 +7,7 @@ import { HALF_SIDE_M, planeArrows, planePixels, SIDE_PX } from './plane';
 import { type Arrow, arrowPath } from '../../plan/arrows';
 import type { Ramp } from '../../plan/colourRamp';
 import { imageOf } from '../../plan/pixels';
+import type { Ctx } from '../../plan/sheet';
 
 const ARROW_ALPHA = 0.6;
 
@@ -21,12 +22,7 @@ export function createFieldPicture(plane: Plane, palette: Palette): FieldPicture
 }
 
 /** Around the origin of the view. */
-export function drawField(
-  ctx: CanvasRenderingContext2D,
-  view: View,
-  palette: Palette,
-  field: FieldPicture,
-): void {
+export function drawField(ctx: Ctx, view: View, palette: Palette, field: FieldPicture): void {
   const side = 2 * HALF_SIDE_M * view.pxPerM;
   ctx.drawImage(field.image, ...pxFromWorld(view, [-HALF_SIDE_M, HALF_SIDE_M]), side, side);
   ctx.strokeStyle = palette.text;

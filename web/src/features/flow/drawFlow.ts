@@ -8,6 +8,7 @@ import { type Arrow, arrowPath } from '../../plan/arrows';
 import { flowArrows, flowTraps } from './flow';
 import type { Vec2 } from '../../lab/geometry';
 import { seenAt } from '../../lab/obstacleMap';
+import type { Ctx } from '../../plan/sheet';
 
 const TRAP_PX = 4.5;
 const UNSEEN_ALPHA = 0.5;
@@ -22,11 +23,7 @@ export function createFlow(field: FlowField, goal_m: Vec2, seen: SeenMessage): F
   return { arrows: flowArrows(field, isSeen), traps: flowTraps(field, goal_m, isSeen) };
 }
 
-export function drawFlow(
-  ctx: CanvasRenderingContext2D,
-  { view, palette }: BasePicture,
-  flow: Flow,
-): void {
+export function drawFlow(ctx: Ctx, { view, palette }: BasePicture, flow: Flow): void {
   ctx.strokeStyle = palette.flow;
   ctx.lineWidth = 1.1;
   for (const isSeen of [true, false]) {

@@ -8,8 +8,7 @@ import { rgb } from '../../plan/colourRamp';
 import type { BasePicture } from '../../plan/layer';
 import { gridPixels, imageOf, type Rgba } from '../../plan/pixels';
 import { pxFromWorld, pxRect, type View } from '../../plan/transform';
-
-type Ctx = CanvasRenderingContext2D;
+import type { Ctx } from '../../plan/sheet';
 
 const UNKNOWN_ALPHA = 130;
 const OBSTACLE_ALPHA = 120;

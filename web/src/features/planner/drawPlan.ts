@@ -3,8 +3,7 @@
 import type { PlanLayer } from '../../net/protocol.gen';
 import type { BasePicture } from '../../plan/layer';
 import { pxFromWorld, pxRect } from '../../plan/transform';
-
-type Ctx = CanvasRenderingContext2D;
+import type { Ctx } from '../../plan/sheet';
 
 const CORNER_PX = 3;
 

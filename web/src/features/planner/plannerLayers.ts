@@ -4,10 +4,11 @@ import type { PlanLayer } from '../../net/protocol.gen';
 import { type BasePicture, drawn, type LayerContext, type MapLayer } from '../../plan/layer';
 import { drawObstacles, drawPlan } from './drawPlan';
 import type { Pictures } from '../../lab/slices';
+import type { Ctx } from '../../plan/sheet';
 
 function ofPlan(
   layer: Pick<MapLayer, 'id' | 'label' | 'shownAtFirst'>,
-  draw: (ctx: CanvasRenderingContext2D, picture: BasePicture, plan: PlanLayer) => void,
+  draw: (ctx: Ctx, picture: BasePicture, plan: PlanLayer) => void,
 ): MapLayer {
   return {
     ...layer,

@@ -7,6 +7,7 @@ import { distance, type Vec2 } from '../../lab/geometry';
 import { drawGoal } from '../../plan/drawMoving';
 import { circle } from '../../plan/shapes';
 import { drawTrail } from '../../plan/drawTrail';
+import type { Ctx } from '../../plan/sheet';
 
 const DOT_PX = 3;
 const STRUCK_PX = 3.5;
@@ -21,8 +22,6 @@ export interface LocusPicture {
   /** The marked sample: the one under the pointer, otherwise the present one. */
   readonly marked: number | undefined;
 }
-
-type Ctx = CanvasRenderingContext2D;
 
 function dot(ctx: Ctx, color: string, edge: string, at: Vec2): void {
   circle(ctx, at, DOT_PX);

@@ -7,10 +7,9 @@ import { imageOf } from '../../plan/pixels';
 import { pxFromWorld } from '../../plan/transform';
 import { heatRamp } from '../../plan/colourRamp';
 import { heatPixels, refusedRuns, type Run } from './heat';
+import type { Ctx } from '../../plan/sheet';
 
 const HATCH_PX = 7;
-
-type Ctx = CanvasRenderingContext2D;
 
 export interface Heat {
   readonly map: WorkspaceMap;
