@@ -23,6 +23,26 @@ export function clampToRect(rect: Rect, point: Vec2): [number, number] {
   ];
 }
 
+/** Counterclockwise, from the smallest x and y. */
+export function cornersOf({ x_min_m, x_max_m, y_min_m, y_max_m }: Rect): [number, number][] {
+  return [
+    [x_min_m, y_min_m],
+    [x_max_m, y_min_m],
+    [x_max_m, y_max_m],
+    [x_min_m, y_max_m],
+  ];
+}
+
+/** The smallest rectangle around some others. */
+export function around(...rects: readonly Rect[]): Rect {
+  return {
+    x_min_m: Math.min(...rects.map((rect) => rect.x_min_m)),
+    x_max_m: Math.max(...rects.map((rect) => rect.x_max_m)),
+    y_min_m: Math.min(...rects.map((rect) => rect.y_min_m)),
+    y_max_m: Math.max(...rects.map((rect) => rect.y_max_m)),
+  };
+}
+
 function crossings(ring: readonly Vec2[], [x, y]: Vec2): number {
   let count = 0;
   let previous = ring.at(-1);

@@ -2,9 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { History } from './history';
 import { stateAt } from './testing';
 
-const ticks = (history: History): number[] => [
-  ...(history.window(-Infinity, Infinity, ['tick'])[0] ?? []),
-];
+const ticks = (history: History): number[] => [...history.window(-Infinity, Infinity).tick];
 
 function filled(capacity: number, count: number): History {
   const history = new History(capacity);
@@ -36,13 +34,10 @@ describe('History', () => {
   });
 
   it('returns a window that includes both of its ends', () => {
-    const [times, errors] = filled(100, 50).window(10 * 0.008, 20 * 0.008, [
-      'sim_time_s',
-      'error_m',
-    ]);
-    expect(times).toHaveLength(11);
-    expect(errors?.[0]).toBe(20);
-    expect(filled(100, 50).window(90, 100, ['tick'])[0]).toHaveLength(0);
+    const { sim_time_s, error_m } = filled(100, 50).window(10 * 0.008, 20 * 0.008);
+    expect(sim_time_s).toHaveLength(11);
+    expect(error_m[0]).toBe(20);
+    expect(filled(100, 50).window(90, 100).tick).toHaveLength(0);
   });
 
   it('stores no state that is older than the newest one', () => {
@@ -55,7 +50,7 @@ describe('History', () => {
     const history = filled(30, 20);
     history.push(stateAt(19, { bead_m: [7, 0, 0] }));
     expect(ticks(history)).toHaveLength(20);
-    expect(history.window(0, 1, ['bead_x_m'])[0]?.at(-1)).toBe(7);
+    expect(history.window(0, 1).bead_x_m.at(-1)).toBe(7);
   });
 
   it('continues from the tick at which it was cut', () => {

@@ -16,6 +16,15 @@ export const COLUMNS = [
   'mode',
 ] as const;
 export type Column = (typeof COLUMNS)[number];
+/** Samples in columns of equal length. */
+export type Samples = Readonly<Record<Column, Float64Array>>;
+
+export function columnsOf(column: (name: Column) => Float64Array): Samples {
+  return Object.fromEntries(COLUMNS.map((name) => [name, column(name)])) as Record<
+    Column,
+    Float64Array
+  >;
+}
 
 /** Enough for every tick of nine minutes, or every frame of eighteen minutes at 1×. Then old samples are thinned out. */
 export const CAPACITY = 65_536;
@@ -26,15 +35,13 @@ const THINNED = 0.875;
 
 /** The states of a trial from its start, in columns. The longer the trial, the coarser the old samples. */
 export class History {
-  private readonly columns: Record<Column, Float64Array>;
+  private readonly columns: Samples;
   private end = 0;
   /** Smallest number of ticks between two old samples. */
   private grainTicks = 1;
 
   constructor(private readonly capacity = CAPACITY) {
-    this.columns = Object.fromEntries(
-      COLUMNS.map((name) => [name, new Float64Array(capacity)]),
-    ) as Record<Column, Float64Array>;
+    this.columns = columnsOf(() => new Float64Array(capacity));
   }
 
   get length(): number {
@@ -82,10 +89,10 @@ export class History {
   }
 
   /** Views of the samples with `fromS` ≤ time ≤ `toS`, oldest first; valid until the next push. */
-  window(fromS: number, toS: number, names: readonly Column[]): Float64Array[] {
+  window(fromS: number, toS: number): Samples {
     const first = this.firstIndex('sim_time_s', fromS, false);
     const last = this.firstIndex('sim_time_s', toS, true);
-    return names.map((name) => this.columns[name].subarray(first, Math.max(first, last)));
+    return columnsOf((name) => this.columns[name].subarray(first, Math.max(first, last)));
   }
 
   /** `name` of the last sample before `tick`, otherwise of the first sample. */

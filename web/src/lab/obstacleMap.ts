@@ -7,7 +7,7 @@ import type { Vec2 } from './geometry';
 export const UNKNOWN = 0;
 
 /** State of each cell, row by row from the smallest x and y. */
-export function seenCells(seen: SeenMessage): Uint8Array {
+export function seenCells(seen: Pick<SeenMessage, 'columns' | 'rows' | 'runs'>): Uint8Array {
   const cells = new Uint8Array(seen.columns * seen.rows);
   let cell = 0;
   for (const [state, count] of seen.runs) {

@@ -6,19 +6,19 @@ import {
   createMemo,
   createSignal,
   on,
-  onCleanup,
   untrack,
   type Accessor,
   type JSX,
 } from 'solid-js';
 import type { Palette } from '../ui/palette';
-import { fitView, tableViewOf, type View } from './transform';
+import { fitView, pxFromWorld, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
-import { fogPath } from './fog';
-import type { LiveLayer } from './layer';
+import { fogImage } from './fog';
+import { type Draw, type LiveLayer, type MovingPicture, shownParts, type UnderTool } from './layer';
 import { type Base, createPainter, type Picture } from './paint';
 import type { Interaction } from './interaction';
-import { type Size, ViewCanvas } from './ViewCanvas';
+import type { Size } from '../ui/size';
+import { ViewCanvas } from './ViewCanvas';
 import type { ViewPicture } from './viewPicture';
 import { type Frame, WHOLE, type Zoom, zoomedView } from './zoom';
 import { yieldToPage, zooming } from './zooming';
@@ -39,6 +39,13 @@ export interface SurfaceProps {
   /** Called with the view when it can be drawn, and with nothing when it closes. */
   readonly onPicture?: (picture: ViewPicture | undefined) => void;
 }
+
+const atTool =
+  ({ draw }: UnderTool): Draw<MovingPicture> =>
+  (ctx, { view, palette, state }) => {
+    const [originX, originY] = pxFromWorld(view, [state.tool_m[0], state.tool_m[1]]);
+    draw(ctx, { ...view, originX, originY }, palette);
+  };
 
 export function PlanView(props: SurfaceProps): JSX.Element {
   const { lab, interaction, layers, palette } = props;
@@ -66,18 +73,13 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   });
   const baseMap = createBaseMap(lab, layers, palette, view, lab.movedWalls);
 
-  const moving = createMemo(() =>
-    layers.flatMap((layer) => {
-      const draw = layer.isShown() ? layer.moving?.() : undefined;
-      return draw ? [draw] : [];
-    }),
+  const moving = createMemo(() => [
+    ...shownParts(layers, 'underTool').map(({ drawing }) => atTool(drawing)),
+    ...shownParts(layers, 'moving').map(({ drawing }) => drawing),
+  ]);
+  const fog = createMemo(() =>
+    lab.sight() === 'all' ? undefined : fogImage(lab.obstacleMap(), palette()),
   );
-  const fog = createMemo(() => {
-    const [now, workspace] = [view(), lab.scene()?.workspace];
-    return now && workspace && lab.sight() !== 'all'
-      ? fogPath(lab.obstacleMap(), workspace, now)
-      : undefined;
-  });
   const base = createMemo<Base | undefined>(() => {
     const mapNow = baseMap();
     return mapNow && { map: mapNow, fog: fog() };
@@ -110,19 +112,11 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     createPainter()(onto, untrack(size), now, ratio);
     return onto;
   };
-  createEffect(() => {
-    if (canvas() && size().width > 0) props.onPicture?.({ size: size(), draw });
-  });
-  onCleanup(() => props.onPicture?.(undefined));
 
   // The geometry on the screen, for tests and other tools that read the page.
   createEffect(() => {
-    const now = view();
     const onto = canvas();
-    if (!now || !onto) return;
-    onto.dataset.pxPerM = String(now.pxPerM);
-    onto.dataset.originX = String(now.originX);
-    onto.dataset.originY = String(now.originY);
+    if (onto) Object.assign(onto.dataset, view());
   });
 
   return (
@@ -139,6 +133,8 @@ export function PlanView(props: SurfaceProps): JSX.Element {
           yieldToPage(onto);
         }}
         onSize={setSize}
+        draw={draw}
+        onPicture={props.onPicture}
       />
       <Show when={zoom() !== WHOLE}>
         <button

@@ -1,15 +1,12 @@
 // The canvas of a view, with mouse, touch and keyboard input.
 
-import { onCleanup, onMount, type JSX } from 'solid-js';
+import { createEffect, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
 import { attachInput } from './input';
 import type { Interaction, Surface } from './interaction';
 import type { ByHand, Session, Trial } from '../lab/slices';
+import { onSize, type Size } from '../ui/size';
+import type { ViewPicture } from './viewPicture';
 import './ViewCanvas.css';
-
-export interface Size {
-  readonly width: number;
-  readonly height: number;
-}
 
 export function ViewCanvas(props: {
   lab: Pick<Session, 'canOperate'> & Trial & Pick<ByHand, 'steering'>;
@@ -22,15 +19,17 @@ export function ViewCanvas(props: {
   /** Called once when the canvas is on the page. */
   onCanvas: (canvas: HTMLCanvasElement) => void;
   onSize: (size: Size) => void;
+  /** Undefined until the view can be drawn. */
+  draw: ViewPicture['draw'] | undefined;
+  /** Called with the view when it can be drawn, and with nothing when it closes. */
+  onPicture?: ((picture: ViewPicture | undefined) => void) | undefined;
 }): JSX.Element {
   const { lab, interaction } = props;
   let canvas!: HTMLCanvasElement;
+  const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
 
   onMount(() => {
-    const observer = new ResizeObserver(() => {
-      props.onSize({ width: canvas.clientWidth, height: canvas.clientHeight });
-    });
-    observer.observe(canvas);
+    onSize(canvas, setSize);
     const open = new AbortController();
     const surface: Surface = {
       motion: () => undefined,
@@ -41,11 +40,17 @@ export function ViewCanvas(props: {
     interaction.enter(surface);
     attachInput(canvas, lab, interaction, surface, open.signal);
     onCleanup(() => {
-      observer.disconnect();
       open.abort();
       interaction.leave();
+      props.onPicture?.(undefined);
     });
     props.onCanvas(canvas);
+  });
+
+  createEffect(() => {
+    const { draw } = props;
+    props.onSize(size());
+    if (draw && size().width > 0) props.onPicture?.({ size: size(), draw });
   });
 
   const cursorName = (): string => {

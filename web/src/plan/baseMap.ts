@@ -4,10 +4,11 @@ import { createMemo, type Accessor } from 'solid-js';
 import type { Palette } from '../ui/palette';
 import { drawFloor, drawGrid, drawOutlines, wallPath } from './drawMap';
 import { drawMovedWalls } from './drawMovedWalls';
-import type { BasePicture, Draw, LiveLayer } from './layer';
-import { pxFromWorld, type View } from './transform';
+import { type BasePicture, type Draw, type LiveLayer, shownParts } from './layer';
+import { pxRect, type View } from './transform';
 import type { MovedWalls } from '../lab/movedWalls';
 import type { Trial } from '../lab/slices';
+import type { Ctx } from './sheet';
 
 /** Floor and walls, with the layers between them. */
 export interface Ground extends BasePicture {
@@ -22,26 +23,16 @@ export interface BaseMap {
   readonly aboveWalls: readonly Draw<BasePicture>[];
 }
 
-type Ctx = CanvasRenderingContext2D;
-
 /** Clips to the workspace, because larger pictures would cover the numbers of the axes. */
-export function drawClipped<P extends BasePicture>(ctx: Ctx, picture: P, draw: Draw<P>): void {
-  const { view, scene } = picture;
-  const rect = scene.workspace;
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, right - left, bottom - top);
-  ctx.clip();
-  draw(ctx, picture);
-  ctx.restore();
-}
-
-const clipped =
-  (draw: Draw<BasePicture>): Draw<BasePicture> =>
+export const clipped =
+  <P extends BasePicture>(draw: Draw<P>): Draw<P> =>
   (ctx, picture) => {
-    drawClipped(ctx, picture, draw);
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(...pxRect(picture.view, picture.scene.workspace));
+    ctx.clip();
+    draw(ctx, picture);
+    ctx.restore();
   };
 
 export function createBaseMap(
@@ -56,28 +47,19 @@ export function createBaseMap(
     const scene = lab.scene();
     return now && scene ? wallPath(scene.walls, now) : undefined;
   });
-  const part = (name: 'belowWalls' | 'aboveWalls') => {
-    const drawings = layers.flatMap((layer) => {
-      const drawing = layer[name]?.(view);
-      return drawing ? [{ layer, drawing }] : [];
-    });
-    return (): Draw<BasePicture>[] =>
-      drawings.flatMap(({ layer, drawing }) => {
-        const draw = layer.isShown() ? drawing() : undefined;
-        if (!draw) return [];
-        return [layer.isUnclipped ? draw : clipped(draw)];
-      });
-  };
-  const [belowWalls, aboveWalls] = [part('belowWalls'), part('aboveWalls')];
+  const part = (name: 'belowWalls' | 'aboveWalls'): Draw<BasePicture>[] =>
+    shownParts(layers, name).map(({ layer, drawing }) =>
+      layer.isUnclipped ? drawing : clipped(drawing),
+    );
   const ground = createMemo<Ground | undefined>(() => {
     const [scene, now, wallsNow] = [lab.scene(), view(), walls()];
     if (!scene || !now || !wallsNow) return undefined;
-    const parts = { moved: moved?.(), belowWalls: belowWalls() };
+    const parts = { moved: moved?.(), belowWalls: part('belowWalls') };
     return { view: now, palette: palette(), scene, walls: wallsNow, ...parts };
   });
   return createMemo(() => {
     const now = ground();
-    return now && { ground: now, aboveWalls: aboveWalls() };
+    return now && { ground: now, aboveWalls: part('aboveWalls') };
   });
 }
 

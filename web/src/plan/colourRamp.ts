@@ -15,6 +15,17 @@ export function rgb(color: string): Rgb {
   return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
 }
 
+export type Range = readonly [least: number, greatest: number];
+
+export function rangeOf(values: readonly number[]): Range | undefined {
+  return values.length > 0 ? [Math.min(...values), Math.max(...values)] : undefined;
+}
+
+/** Colour of a value in a range. */
+export function colourOf(ramp: Ramp, [least, greatest]: Range, value: number): Rgb {
+  return rampColour(ramp, greatest > least ? (value - least) / (greatest - least) : 0);
+}
+
 /** Colour of a share of the range, 0 to 1. */
 export function rampColour(ramp: Ramp, share: number): Rgb {
   const inside = Math.min(1, Math.max(0, share));

@@ -2,13 +2,13 @@
 
 import type { Vec2 } from '../lab/geometry';
 import type { Palette } from '../ui/palette';
+import { circle } from './shapes';
 import { pxFromWorld, type View } from './transform';
+import type { Ctx } from './sheet';
 
 const TOOL_PX = 7;
 const BEAD_PX = 3.5;
 const FONT = '600 11px system-ui, sans-serif';
-
-type Ctx = CanvasRenderingContext2D;
 
 export interface DrawnGhost {
   readonly colour: string;
@@ -17,11 +17,6 @@ export interface DrawnGhost {
   readonly path_m: readonly Vec2[];
   readonly tool_m: Vec2;
   readonly bead_m: Vec2;
-}
-
-function ring(ctx: Ctx, [x, y]: Vec2, radius_px: number): void {
-  ctx.beginPath();
-  ctx.arc(x, y, radius_px, 0, 2 * Math.PI);
 }
 
 /** Text with an outline, so that it is readable on a wall. */
@@ -54,9 +49,9 @@ export function drawGhost(ctx: Ctx, view: View, palette: Palette, ghost: DrawnGh
   ctx.lineTo(...bead);
   ctx.stroke();
   ctx.lineWidth = 2;
-  ring(ctx, tool, TOOL_PX);
+  circle(ctx, tool, TOOL_PX);
   ctx.stroke();
-  ring(ctx, bead, BEAD_PX);
+  circle(ctx, bead, BEAD_PX);
   ctx.fill();
   drawLabel(ctx, palette, ghost.label, [tool[0] + TOOL_PX + 4, tool[1]]);
   ctx.restore();

@@ -1,10 +1,11 @@
 // Draws the hand: the spring from the bead to the pointer, and the keyboard's cursor.
 
-import { centimetres, newtons } from '../ui/format';
 import { pxFromWorld, type View } from './transform';
 import { FONT } from './drawMap';
+import { circle, cross } from './shapes';
 import type { Palette } from '../ui/palette';
 import { distance, type Vec2 } from '../lab/geometry';
+import type { Ctx } from './sheet';
 
 const COIL_PX = 7;
 const COIL_HALF_WIDTH_PX = 5;
@@ -14,10 +15,8 @@ const LABEL_OFFSET_PX = 16;
 const LABEL_PADDING_PX = 6;
 const LABEL_HEIGHT_PX = 20;
 
-type Ctx = CanvasRenderingContext2D;
-
 /** Corners of a zigzag spring from `a` to `b`, in pixels. */
-export function springPoints(a: Vec2, b: Vec2): [number, number][] {
+function springPoints(a: Vec2, b: Vec2): [number, number][] {
   const length = distance(a, b);
   const coils = Math.floor((length - 2 * LEAD_PX) / COIL_PX);
   if (coils < 1)
@@ -62,51 +61,31 @@ function drawLabel(ctx: Ctx, text: string, at: Vec2, widthPx: number, palette: P
   ctx.fillText(text, left + LABEL_PADDING_PX, top + LABEL_HEIGHT_PX / 2 + 0.5);
 }
 
-export interface Spring {
-  readonly bead_m: Vec2;
-  readonly hand_m: Vec2;
-  readonly force_n: number;
-  /** Remarks: that the bead is lifted, or when it moves while paused. */
-  readonly remark: string;
-}
-
 export function drawSpring(
   ctx: Ctx,
   view: View,
   palette: Palette,
   widthPx: number,
-  spring: Spring,
+  bead_m: Vec2,
+  { hand_m, words }: { readonly hand_m: Vec2; readonly words: string },
 ): void {
-  const bead = pxFromWorld(view, spring.bead_m);
-  const hand = pxFromWorld(view, spring.hand_m);
+  const bead = pxFromWorld(view, bead_m);
+  const hand = pxFromWorld(view, hand_m);
   ctx.beginPath();
   for (const point of springPoints(bead, hand)) ctx.lineTo(...point);
   ctx.strokeStyle = palette.hand;
   ctx.lineWidth = 1.75;
   ctx.lineJoin = 'round';
   ctx.stroke();
-  ctx.beginPath();
-  ctx.arc(hand[0], hand[1], 4, 0, 2 * Math.PI);
+  circle(ctx, hand, 4);
   ctx.fillStyle = palette.hand;
   ctx.fill();
-  const parts = [newtons(spring.force_n), centimetres(distance(spring.bead_m, spring.hand_m))];
-  if (spring.remark) parts.push(spring.remark);
-  drawLabel(ctx, parts.join(' · '), hand, widthPx, palette);
+  drawLabel(ctx, words, hand, widthPx, palette);
 }
 
 export function drawCursor(ctx: Ctx, view: View, palette: Palette, cursor: Vec2): void {
-  const [x, y] = pxFromWorld(view, cursor);
   ctx.strokeStyle = palette.focus;
   ctx.lineWidth = 2;
-  ctx.beginPath();
-  for (const [dx, dy] of [
-    [1, 0],
-    [-1, 0],
-    [0, 1],
-    [0, -1],
-  ] as const) {
-    ctx.moveTo(x + 4 * dx, y + 4 * dy);
-    ctx.lineTo(x + 14 * dx, y + 14 * dy);
-  }
+  cross(ctx, pxFromWorld(view, cursor), 14, 4);
   ctx.stroke();
 }

@@ -2,8 +2,9 @@
 
 import { fixed } from '../ui/format';
 import type { Polygon, Rect } from '../net/protocol.gen';
-import { pxFromWorld, type View } from './transform';
+import { pxFromWorld, pxRect, type View } from './transform';
 import type { Palette } from '../ui/palette';
+import type { Ctx } from './sheet';
 
 export const FONT = '11px system-ui, sans-serif';
 const LABEL_GAP_PX = 5;
@@ -41,12 +42,7 @@ export function wallPath(walls: readonly Polygon[], view: View): Path2D {
 }
 
 /** The lines of the grid, and the numbers beside the workspace. */
-export function drawGrid(
-  ctx: CanvasRenderingContext2D,
-  rect: Rect,
-  view: View,
-  palette: Palette,
-): void {
+export function drawGrid(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
   const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
   const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   const step = gridStepM(view.pxPerM);
@@ -74,21 +70,14 @@ export function drawGrid(
   ctx.stroke();
 }
 
-export function drawFloor(
-  ctx: CanvasRenderingContext2D,
-  rect: Rect,
-  view: View,
-  palette: Palette,
-): void {
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+export function drawFloor(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
   ctx.fillStyle = palette.floor;
-  ctx.fillRect(left, top, right - left, bottom - top);
+  ctx.fillRect(...pxRect(view, rect));
 }
 
 /** The walls and the border. */
 export function drawOutlines(
-  ctx: CanvasRenderingContext2D,
+  ctx: Ctx,
   rect: Rect,
   walls: Path2D,
   view: View,
@@ -103,15 +92,8 @@ export function drawOutlines(
 }
 
 /** The borders are walls too. */
-export function drawBorder(
-  ctx: CanvasRenderingContext2D,
-  rect: Rect,
-  view: View,
-  palette: Palette,
-): void {
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+export function drawBorder(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
   ctx.strokeStyle = palette['wall-edge'];
   ctx.lineWidth = BORDER_PX;
-  ctx.strokeRect(left, top, right - left, bottom - top);
+  ctx.strokeRect(...pxRect(view, rect));
 }

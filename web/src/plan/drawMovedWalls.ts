@@ -4,7 +4,8 @@ import type { MovedWalls } from '../lab/movedWalls';
 import type { Rect } from '../net/protocol.gen';
 import type { Palette } from '../ui/palette';
 import { drawBorder, EDGE_PX } from './drawMap';
-import { pxFromWorld, type View } from './transform';
+import { pxRect, type View } from './transform';
+import type { Ctx } from './sheet';
 
 /** A path around what is not free. The outlines are moved into the walls by `into_px`. */
 function wallPath(table: Path2D, walls: MovedWalls, view: View, into_px: number): Path2D {
@@ -25,16 +26,14 @@ function wallPath(table: Path2D, walls: MovedWalls, view: View, into_px: number)
 }
 
 export function drawMovedWalls(
-  ctx: CanvasRenderingContext2D,
+  ctx: Ctx,
   rect: Rect,
   walls: MovedWalls,
   view: View,
   palette: Palette,
 ): void {
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   const table = new Path2D();
-  table.rect(left, top, right - left, bottom - top);
+  table.rect(...pxRect(view, rect));
   ctx.save();
   ctx.clip(table);
   // Lines of one pixel are drawn much faster than wider ones.

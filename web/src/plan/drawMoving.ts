@@ -1,33 +1,19 @@
 // Draws the moving parts of the workspace, from back to front.
 
-import { GOAL_RADIUS_M, type SceneMessage, type StateMessage } from '../net/protocol.gen';
+import { GOAL_RADIUS_M } from '../net/protocol.gen';
 import { pxFromWorld, type View } from './transform';
 import type { Palette } from '../ui/palette';
 import type { Vec2 } from '../lab/geometry';
+import { circle, cross } from './shapes';
+import type { Ctx } from './sheet';
 
 /** The bead has a diameter of 5 mm. On a small canvas it is enlarged to stay visible. */
 const MIN_BEAD_PX = 4.5;
 const TRACKED_PX = 4;
 const TOOL_PX = 8;
 
-type Ctx = CanvasRenderingContext2D;
-
 export function beadRadiusPx(view: View, radius_m: number): number {
   return Math.max(MIN_BEAD_PX, radius_m * view.pxPerM);
-}
-
-function circle(ctx: Ctx, [x, y]: Vec2, radius: number): void {
-  ctx.beginPath();
-  ctx.arc(x, y, radius, 0, 2 * Math.PI);
-}
-
-function cross(ctx: Ctx, [x, y]: Vec2, half: number): void {
-  ctx.beginPath();
-  ctx.moveTo(x - half, y);
-  ctx.lineTo(x + half, y);
-  ctx.moveTo(x, y - half);
-  ctx.lineTo(x, y + half);
-  ctx.stroke();
 }
 
 export function drawGoal(ctx: Ctx, view: View, palette: Palette, goal: Vec2): void {
@@ -41,17 +27,18 @@ export function drawGoal(ctx: Ctx, view: View, palette: Palette, goal: Vec2): vo
   ctx.lineWidth = 2;
   ctx.stroke();
   cross(ctx, at, 6);
+  ctx.stroke();
 }
 
 export function drawBead(
   ctx: Ctx,
   view: View,
   palette: Palette,
-  scene: SceneMessage,
-  state: StateMessage,
+  bead: Vec2,
+  radius_m: number,
   canGrabRadiusPx: number | undefined,
 ): void {
-  const at = pxFromWorld(view, [state.bead_m[0], state.bead_m[1]]);
+  const at = pxFromWorld(view, bead);
   if (canGrabRadiusPx !== undefined) {
     circle(ctx, at, canGrabRadiusPx);
     ctx.fillStyle = palette.bead;
@@ -62,15 +49,19 @@ export function drawBead(
     ctx.lineWidth = 1.5;
     ctx.stroke();
   }
-  circle(ctx, at, beadRadiusPx(view, scene.bead_radius_m));
+  circle(ctx, at, beadRadiusPx(view, radius_m));
   ctx.fillStyle = palette.bead;
   ctx.fill();
   ctx.strokeStyle = palette.floor;
   ctx.lineWidth = 1.25;
   ctx.stroke();
+}
+
+export function drawTracked(ctx: Ctx, view: View, palette: Palette, tracked: Vec2): void {
   ctx.strokeStyle = palette.text;
   ctx.lineWidth = 1;
-  cross(ctx, pxFromWorld(view, state.bead_tracked_m), TRACKED_PX);
+  cross(ctx, pxFromWorld(view, tracked), TRACKED_PX);
+  ctx.stroke();
 }
 
 /** A dashed line from the tool to where the hand points it. */
@@ -101,16 +92,6 @@ export function drawTool(ctx: Ctx, view: View, palette: Palette, tool: Vec2): vo
   ctx.lineWidth = 2;
   ctx.stroke();
   ctx.lineWidth = 1.25;
-  const [x, y] = at;
-  ctx.beginPath();
-  for (const [dx, dy] of [
-    [1, 0],
-    [-1, 0],
-    [0, 1],
-    [0, -1],
-  ] as const) {
-    ctx.moveTo(x + dx * TOOL_PX, y + dy * TOOL_PX);
-    ctx.lineTo(x + dx * (TOOL_PX + 6), y + dy * (TOOL_PX + 6));
-  }
+  cross(ctx, at, TOOL_PX + 6, TOOL_PX);
   ctx.stroke();
 }

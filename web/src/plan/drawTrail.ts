@@ -1,11 +1,12 @@
 import { pxFromWorld, type View } from './transform';
+import type { Ctx } from './sheet';
 
 /** On a canvas a thousand pixels wide, more points would not be visible. */
 const POINTS = 4000;
 
 /** Coordinates are oldest first. */
 export function drawTrail(
-  ctx: CanvasRenderingContext2D,
+  ctx: Ctx,
   view: View,
   color: string,
   xs_m: Float64Array,

@@ -50,8 +50,12 @@ export function createFloorPicture(workspace: Rect): FloorPicture {
 }
 
 /** The picture of the numbers around the workspace, which is static. */
-export function createNumbersPicture(workspace: Rect): FloorPicture {
-  return createPicture(workspace, INSETS);
+export function numbersPicture(workspace: Rect, palette: Palette): FloorPicture {
+  const picture = createPicture(workspace, INSETS);
+  const ctx = picture.canvas.getContext('2d');
+  ctx?.scale(RATIO, RATIO);
+  if (ctx) drawGrid(ctx, workspace, picture.view, palette);
+  return picture;
 }
 
 /** Draws the base map on it again. */
@@ -62,13 +66,4 @@ export function repaintFloor({ canvas, ratio }: FloorPicture, map: BaseMap): voi
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   paintGround(ctx, map.ground);
   paintAbove(ctx, map);
-}
-
-export function repaintNumbers(picture: FloorPicture, palette: Palette): void {
-  const { canvas, view, ratio, workspace } = picture;
-  const ctx = canvas.getContext('2d');
-  if (!ctx) return;
-  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  ctx.clearRect(0, 0, canvas.width, canvas.height);
-  drawGrid(ctx, workspace, view, palette);
 }

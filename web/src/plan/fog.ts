@@ -1,53 +1,33 @@
 // Fog over what the camera has not seen.
 
-import type { Rect, SeenMessage } from '../net/protocol.gen';
-import { UNKNOWN } from '../lab/obstacleMap';
-import { drawClipped } from './baseMap';
-import type { BasePicture } from './layer';
-import { pxFromWorld, type View } from './transform';
+import type { SeenMessage } from '../net/protocol.gen';
+import type { Palette } from '../ui/palette';
+import { seenCells, UNKNOWN } from '../lab/obstacleMap';
+import { rgb } from './colourRamp';
+import type { BasePicture, Draw } from './layer';
+import { gridPixels, imageOf, type Rgba } from './pixels';
+import { pxRect } from './transform';
 
-/** A row of cells: row, first column, and the column after the last. */
-export type Span = readonly [row: number, from: number, to: number];
+const CLEAR: Rgba = [0, 0, 0, 0];
 
-/** The cells that the camera has not seen, row by row. */
-export function unseenSpans({ columns, runs }: Pick<SeenMessage, 'columns' | 'runs'>): Span[] {
-  const spans: Span[] = [];
-  let cell = 0;
-  for (const [state, count] of runs) {
-    const end = cell + count;
-    while (cell < end) {
-      const [row, from] = [Math.floor(cell / columns), cell % columns];
-      const to = Math.min(columns, from + end - cell);
-      if (state === UNKNOWN) spans.push([row, from, to]);
-      cell += to - from;
-    }
-  }
-  return spans;
+/** One pixel per cell; everything is in fog before the first obstacle map. */
+export function fogPixels(
+  seen: Pick<SeenMessage, 'columns' | 'rows' | 'runs'> = { columns: 1, rows: 1, runs: [] },
+  palette: Palette,
+): Uint8ClampedArray<ArrayBuffer> {
+  const cells = seenCells(seen);
+  const fog: Rgba = [...rgb(palette.fog), 255];
+  return gridPixels(seen.columns, seen.rows, (cell) => (cells[cell] === UNKNOWN ? fog : CLEAR));
 }
 
-/** The fog as a path in a view; everything before the first obstacle map. */
-export function fogPath(seen: SeenMessage | undefined, workspace: Rect, view: View): Path2D {
-  const path = new Path2D();
-  const [left, top] = pxFromWorld(view, [workspace.x_min_m, workspace.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [workspace.x_max_m, workspace.y_min_m]);
-  if (!seen) {
-    path.rect(left, top, right - left, bottom - top);
-    return path;
-  }
-  const [wide, high] = [(right - left) / seen.columns, (bottom - top) / seen.rows];
-  // Whole pixels, so that nothing shines through between two rows.
-  const at = (place: number): number => Math.round(place);
-  for (const [row, from, to] of unseenSpans(seen)) {
-    const [x0, x1] = [at(left + from * wide), at(left + to * wide)];
-    const [y0, y1] = [at(bottom - (row + 1) * high), at(bottom - row * high)];
-    path.rect(x0, y0, x1 - x0, y1 - y0);
-  }
-  return path;
+export function fogImage(seen: SeenMessage | undefined, palette: Palette): HTMLCanvasElement {
+  return imageOf(fogPixels(seen, palette), seen?.columns ?? 1);
 }
 
-export function drawFog(ctx: CanvasRenderingContext2D, picture: BasePicture, fog: Path2D): void {
-  drawClipped(ctx, picture, () => {
-    ctx.fillStyle = picture.palette.fog;
-    ctx.fill(fog);
-  });
-}
+export const drawFog =
+  (fog: HTMLCanvasElement): Draw<BasePicture> =>
+  (ctx, { view, scene }) => {
+    // No smoothing: cells have sharp edges.
+    ctx.imageSmoothingEnabled = false;
+    ctx.drawImage(fog, ...pxRect(view, scene.workspace));
+  };

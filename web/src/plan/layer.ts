@@ -6,6 +6,7 @@ import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { Palette } from '../ui/palette';
 import type { View } from './transform';
 import type { Lab } from '../lab/slices';
+import type { Ctx } from './sheet';
 
 /** Headings of the menu, in its order. */
 export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm'] as const;
@@ -21,30 +22,45 @@ export interface MovingPicture extends BasePicture {
   readonly history: History;
 }
 
-export type Draw<P extends BasePicture> = (ctx: CanvasRenderingContext2D, picture: P) => void;
+export type Draw<P extends BasePicture> = (ctx: Ctx, picture: P) => void;
 
-/**
- * Called once for each surface, so that results that depend on its view can be memos. The accessor returns `undefined`
- * while there is nothing to draw. It is read only while the layer is shown.
- */
-export type BaseDrawing = (
-  view: Accessor<View | undefined>,
-) => Accessor<Draw<BasePicture> | undefined>;
-
-/** A square picture with its middle below the tool. The 3-D scene moves it with the tool. */
+/** A square picture with its middle below the tool, around the origin of the view. It moves with the tool. */
 export interface UnderTool {
   readonly halfSide_m: number;
-  readonly draw: (ctx: CanvasRenderingContext2D, view: View, palette: Palette) => void;
+  readonly draw: (ctx: Ctx, view: View, palette: Palette) => void;
 }
 
-/** The parts of a layer. Each is optional. */
-export interface LayerParts {
-  readonly belowWalls?: BaseDrawing;
-  readonly aboveWalls?: BaseDrawing;
+interface Drawings {
+  readonly belowWalls: Draw<BasePicture>;
+  readonly aboveWalls: Draw<BasePicture>;
   /** Drawn with every state, above the base map and below goal, tool and bead. */
-  readonly moving?: Accessor<Draw<MovingPicture> | undefined>;
-  readonly underTool?: Accessor<UnderTool | undefined>;
+  readonly moving: Draw<MovingPicture>;
+  /** Drawn below those. */
+  readonly underTool: UnderTool;
+}
+
+/** They are read only while the layer is shown, and are undefined while there is nothing to draw. */
+type DrawnParts = {
+  readonly [Part in keyof Drawings]?: Accessor<Drawings[Part] | undefined>;
+};
+
+export interface LayerParts extends DrawnParts {
   readonly legend?: () => JSX.Element;
+}
+
+/** A part that draws something while it is there. */
+export function drawn<P extends BasePicture, T>(
+  thing: Accessor<T | undefined>,
+  draw: (ctx: Ctx, picture: P, thing: T) => void,
+): Accessor<Draw<P> | undefined> {
+  return () => {
+    const now = thing();
+    return now === undefined
+      ? undefined
+      : (ctx, picture) => {
+          draw(ctx, picture, now);
+        };
+  };
 }
 
 export interface LayerContext<L = Lab> {
@@ -78,6 +94,15 @@ export type LiveLayer<L extends MapLayer = MapLayer> = L &
 export function hiddenBecause(layer: MapLayer, lab: Lab): string | undefined {
   if (lab.sight() !== 'all' && !layer.isSensed) return 'Hidden in fog: no sensor tells it.';
   return layer.unavailable?.(lab);
+}
+
+/** What the shown layers have for a part of a picture, with its layer. */
+export function shownParts<Part extends keyof Drawings>(layers: readonly LiveLayer[], part: Part) {
+  return layers.flatMap((layer) => {
+    const { [part]: read }: DrawnParts = layer;
+    const drawing = layer.isShown() ? read?.() : undefined;
+    return drawing ? [{ layer, drawing }] : [];
+  });
 }
 
 export function createLayers<L extends MapLayer>(

@@ -2,21 +2,22 @@
 
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import { type BaseMap, type Ground, drawClipped, paintAbove, paintGround } from './baseMap';
+import { type BaseMap, type Ground, clipped, paintAbove, paintGround } from './baseMap';
 import { drawCursor, drawSpring } from './drawHand';
-import { drawBead, drawGoal, drawSteering, drawTool } from './drawMoving';
+import { drawBead, drawGoal, drawSteering, drawTool, drawTracked } from './drawMoving';
 import { drawFog } from './fog';
 import type { Act } from './gesture';
 import type { Draw, MovingPicture } from './layer';
-import { contextOf, Sheet } from './sheet';
-import type { Size } from './ViewCanvas';
-import { clampToRect, type Vec2 } from '../lab/geometry';
+import { type Ctx, contextOf, Sheet } from './sheet';
+import type { Size } from '../ui/size';
+import { clampToRect, distance, type Vec2 } from '../lab/geometry';
+import { centimetres, newtons } from '../ui/format';
 
 /** What does not change with every state. */
 export interface Base {
   readonly map: BaseMap;
   /** Covers what the camera has not seen; the bead is then drawn where the tracker reports it. */
-  readonly fog: Path2D | undefined;
+  readonly fog: HTMLCanvasElement | undefined;
 }
 
 export interface Picture {
@@ -33,69 +34,57 @@ export interface Picture {
   readonly steer_m: Vec2 | undefined;
 }
 
-type Ctx = CanvasRenderingContext2D;
-
-/** Remarks about a hold: that the bead is lifted, or when it moves while paused. */
-export function remarkOf(act: Act, state: StateMessage): string {
-  const remarks: string[] = [];
-  if (act.kind === 'held' && act.lift) remarks.push('lifted');
-  if (!state.running) remarks.push('moves there on release');
-  return remarks.join(', ');
+/** How the hand pulls the bead. */
+export interface Pull {
+  readonly hand_m: Vec2;
+  readonly isLifted: boolean;
+  /** Force, length of the spring, and remarks: that the bead is lifted, or when it moves while paused. */
+  readonly words: string;
 }
 
-/** The hand's place: the own pointer is newer than the server's echo of it; a viewer sees the echo. */
-export function handOf(act: Act, state: StateMessage, scene: SceneMessage): Vec2 | undefined {
-  return act.kind === 'held' ? clampToRect(scene.workspace, act.at) : (state.hand_m ?? undefined);
-}
-
-/** The bead where the tracker reports it. */
-function asTracked(state: StateMessage): StateMessage {
-  const [x, y] = state.bead_tracked_m;
-  return { ...state, bead_m: [x, y, state.bead_m[2]] };
-}
-
-function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
-  const { act, base } = picture;
-  const { view, palette, scene } = base.map.ground;
-  const hand_m = handOf(act, state, scene);
-  if (!hand_m) return;
-  drawSpring(ctx, view, palette, widthPx, {
-    bead_m: [state.bead_m[0], state.bead_m[1]],
-    hand_m,
-    force_n: state.hand_force_n,
-    remark: remarkOf(act, state),
-  });
+/** The own pointer is newer than the server's echo of it; a viewer sees the echo. */
+export function pullOf(act: Act, state: StateMessage, scene: SceneMessage): Pull | undefined {
+  const own = act.kind === 'held' ? act : undefined;
+  const hand_m = own ? clampToRect(scene.workspace, own.at) : state.hand_m;
+  if (!hand_m) return undefined;
+  const stretched_m = distance([state.bead_m[0], state.bead_m[1]], hand_m);
+  const isLifted = own?.lift ?? false;
+  const remarks = [isLifted && 'lifted', !state.running && 'moves there on release'];
+  const parts = [newtons(state.hand_force_n), centimetres(stretched_m)];
+  const remark = remarks.filter(Boolean).join(', ');
+  return { hand_m, isLifted, words: [...parts, ...(remark ? [remark] : [])].join(' · ') };
 }
 
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
   const { view, palette, scene } = picture.base.map.ground;
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
   const moving = { view, palette, scene, state, history: picture.history };
-  for (const draw of picture.moving) drawClipped(ctx, moving, draw);
+  for (const draw of picture.moving) clipped(draw)(ctx, moving);
   if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
   if (picture.steer_m) drawSteering(ctx, view, palette, tool, picture.steer_m);
   drawTool(ctx, view, palette, tool);
-  const shown = picture.base.fog ? asTracked(state) : state;
-  drawBead(ctx, view, palette, scene, shown, picture.grabRadiusPx);
-  paintSpring(ctx, picture, state, widthPx);
+  const bead_m = picture.base.fog ? state.bead_tracked_m : state.bead_m;
+  const bead: Vec2 = [bead_m[0], bead_m[1]];
+  drawBead(ctx, view, palette, bead, scene.bead_radius_m, picture.grabRadiusPx);
+  drawTracked(ctx, view, palette, state.bead_tracked_m);
+  const pull = pullOf(picture.act, state, scene);
+  if (pull) drawSpring(ctx, view, palette, widthPx, bead, pull);
 }
 
-export type Painter = (
-  canvas: HTMLCanvasElement,
-  size: Size,
-  picture: Picture,
-  ratio?: number,
-) => void;
-
 /** It keeps what does not change from one picture to the next. */
-export function createPainter(): Painter {
+export function createPainter() {
   const grounds = new Sheet<Ground>(paintGround);
   const bases = new Sheet<Base>((ctx, { map, fog }, size, ratio) => {
     grounds.copy(ctx, map.ground, size, ratio);
     paintAbove(ctx, map);
-    if (fog) drawFog(ctx, map.ground, fog);
+    if (fog) clipped(drawFog(fog))(ctx, map.ground);
   });
-  return (canvas, size, picture, ratio = window.devicePixelRatio) => {
+  return (
+    canvas: HTMLCanvasElement,
+    size: Size,
+    picture: Picture,
+    ratio = window.devicePixelRatio,
+  ): void => {
     const ctx = contextOf(canvas, size, ratio);
     if (!ctx) return;
     const { base, state, cursor } = picture;

@@ -1,8 +1,8 @@
 // Canvases that are cleared, and such that are kept.
 
-import type { Size } from './ViewCanvas';
+import type { Size } from '../ui/size';
 
-type Ctx = CanvasRenderingContext2D;
+export type Ctx = CanvasRenderingContext2D;
 
 /** The canvas, cleared, with one unit per CSS pixel. */
 export function contextOf(

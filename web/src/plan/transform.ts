@@ -18,6 +18,16 @@ export interface Insets {
   readonly bottom: number;
 }
 
+/** The rectangle with more space at its sides. */
+export function grown(rect: Rect, { left, right, top, bottom }: Insets): Rect {
+  return {
+    x_min_m: rect.x_min_m - left,
+    x_max_m: rect.x_max_m + right,
+    y_min_m: rect.y_min_m - bottom,
+    y_max_m: rect.y_max_m + top,
+  };
+}
+
 /** Shows all of `world`, centred, as large as possible inside `insets`. */
 export function fitView(world: Rect, widthPx: number, heightPx: number, insets: Insets): View {
   const worldWidth = world.x_max_m - world.x_min_m;
@@ -36,6 +46,13 @@ export function fitView(world: Rect, widthPx: number, heightPx: number, insets: 
 
 export function pxFromWorld(view: View, point: Vec2): [number, number] {
   return [view.originX + point[0] * view.pxPerM, view.originY - point[1] * view.pxPerM];
+}
+
+/** Left, top, width and height of a rectangle of the table. */
+export function pxRect(view: View, rect: Rect): [number, number, number, number] {
+  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
+  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+  return [left, top, right - left, bottom - top];
 }
 
 export function worldFromPx(view: View, point: Vec2): [number, number] {

@@ -4,7 +4,7 @@ import { ACTIONS } from '../lab/actions';
 import type { Vec2 } from '../lab/geometry';
 import type { ValueCell, ValueMap } from '../net/protocol.gen';
 import type { Arrow } from './arrows';
-import { type Ramp, rampColour } from './colourRamp';
+import { colourOf, type Ramp, type Range, rangeOf } from './colourRamp';
 
 /** Arrow length as a share of the distance between two arrows. */
 const LENGTH = 0.6;
@@ -14,10 +14,8 @@ const MIN_ARROW_PX = 12;
 /** The cells of a value map, with their distance. */
 export type ValueCells = Pick<ValueMap, 'spacing_m' | 'cells'>;
 
-export function valueRange(map: ValueCells): [number, number] | undefined {
-  if (map.cells.length === 0) return undefined;
-  const values = map.cells.map(({ value }) => value);
-  return [Math.min(...values), Math.max(...values)];
+export function valueRange(map: ValueCells): Range | undefined {
+  return rangeOf(map.cells.map(({ value }) => value));
 }
 
 /** The smallest x and the largest y of the cells' middles, and a cell's column and row counted from there. */
@@ -45,17 +43,18 @@ export interface ValuePicture {
 export function valuePicture(
   map: ValueCells,
   ramp: Ramp,
-  range: readonly [number, number] | undefined = valueRange(map),
+  range: Range | undefined = valueRange(map),
 ): ValuePicture | undefined {
   if (!range || map.cells.length === 0) return undefined;
   const { left_m, top_m, column, row } = latticeOf(map);
   const columns = 1 + Math.max(...map.cells.map(column));
   const rows = 1 + Math.max(...map.cells.map(row));
   const pixels = new Uint8ClampedArray(4 * columns * rows);
-  const span = range[1] - range[0];
   for (const cell of map.cells) {
-    const color = rampColour(ramp, span > 0 ? (cell.value - range[0]) / span : 0);
-    pixels.set([...color, 255], 4 * (row(cell) * columns + column(cell)));
+    pixels.set(
+      [...colourOf(ramp, range, cell.value), 255],
+      4 * (row(cell) * columns + column(cell)),
+    );
   }
   const half_m = map.spacing_m / 2;
   return { corner_m: [left_m - half_m, top_m + half_m], columns, rows, pixels };

@@ -1,6 +1,6 @@
 // The shown view as a source of pictures.
 
-import type { Size } from './ViewCanvas';
+import type { Size } from '../ui/size';
 
 export interface ViewPicture {
   /** In CSS pixels. */

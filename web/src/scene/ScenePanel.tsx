@@ -11,18 +11,17 @@ import {
   untrack,
   type JSX,
 } from 'solid-js';
-import { centimetres, newtons } from '../ui/format';
 import type { ViewpointName } from './viewpoints';
 import type { SceneView } from './SceneView';
 import type { InScene, LoadedLayer } from './sceneLayer';
 import { createBaseMap } from '../plan/baseMap';
 import type { Surface } from '../plan/interaction';
-import type { LiveLayer, MapLayer } from '../plan/layer';
+import { type LiveLayer, type MapLayer, shownParts } from '../plan/layer';
 import { createFloorPicture, type FloorPicture, repaintFloor } from '../plan/floorPicture';
-import { handOf, remarkOf } from '../plan/paint';
+import { pullOf } from '../plan/paint';
 import type { SurfaceProps } from '../plan/PlanView';
-import { type Size, ViewCanvas } from '../plan/ViewCanvas';
-import { distance } from '../lab/geometry';
+import type { Size } from '../ui/size';
+import { ViewCanvas } from '../plan/ViewCanvas';
 import './scene.css';
 
 const VIEWPOINTS: readonly ViewpointName[] = ['Home', 'Top', 'Front', 'Side'];
@@ -52,36 +51,22 @@ export function ScenePanel(
 ): JSX.Element {
   const { lab, interaction, layers, palette } = props;
   const { act, reachPx, focused, cursor } = interaction;
-  const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
   let isGone = false;
 
   const open = async (canvas: HTMLCanvasElement): Promise<void> => {
-    const [{ SceneView, NoWebGl }, inScene] = await Promise.all([
+    const [{ SceneView }, inScene] = await Promise.all([
       import('./SceneView'),
       loadObjects(layers),
     ]).catch(() => {
       throw new Error('The 3-D view could not be loaded from the server.');
     });
     if (isGone) return;
-    try {
-      setDrawing(
-        new SceneView(canvas, untrack(palette), inScene, interaction.setView, props.isBold),
-      );
-    } catch (reason) {
-      if (!(reason instanceof NoWebGl)) throw reason;
-      throw new Error(
-        'This browser cannot show the 3-D view: it has no WebGL 2, or WebGL 2 is switched off.',
-        {
-          cause: reason,
-        },
-      );
-    }
+    setDrawing(new SceneView(canvas, untrack(palette), inScene, interaction.setView, props.isBold));
   };
   const start = (canvas: HTMLCanvasElement): void => {
-    setCanvas(canvas);
     open(canvas).catch((reason: unknown) => {
       setProblem(reason instanceof Error ? reason.message : String(reason));
       props.onProblem?.();
@@ -106,17 +91,6 @@ export function ScenePanel(
     const { width, height } = size();
     drawing()?.resize(width, height);
   });
-  createEffect(() => {
-    const [view, onto] = [drawing(), canvas()];
-    if (!view || !onto || size().width === 0) return;
-    // Its pixels do not stay: they are valid only until the browser shows the frame.
-    const draw = (ratio: number): HTMLCanvasElement => {
-      view.draw(ratio);
-      return onto;
-    };
-    props.onPicture?.({ size: size(), draw });
-  });
-  onCleanup(() => props.onPicture?.(undefined));
   createEffect(
     on(
       () => props.whole?.(),
@@ -151,19 +125,12 @@ export function ScenePanel(
   });
 
   createEffect(() => {
-    const pictures = layers.flatMap((layer) => {
-      const picture = layer.isShown() ? layer.underTool?.() : undefined;
-      return picture ? [picture] : [];
-    });
-    drawing()?.hang(pictures);
+    drawing()?.hang(shownParts(layers, 'underTool').map(({ drawing }) => drawing));
   });
 
   const pull = createMemo(() => {
     const [scene, state] = [lab.scene(), lab.state()];
-    const now = act();
-    if (!scene || !state) return undefined;
-    const hand_m = handOf(now, state, scene);
-    return hand_m && { hand_m, lifted: now.kind === 'held' && now.lift };
+    return scene && state && pullOf(act(), state, scene);
   });
   createEffect(() => {
     const state = lab.state();
@@ -180,16 +147,12 @@ export function ScenePanel(
   });
 
   const label = createMemo(() => {
-    const [now, state, view] = [pull(), lab.state(), interaction.view()];
-    const at = now && view?.toPx(now.hand_m);
-    if (!now || !state || !at) return undefined;
-    const stretched_m = distance([state.bead_m[0], state.bead_m[1]], now.hand_m);
-    const parts = [newtons(state.hand_force_n), centimetres(stretched_m)];
-    const remark = remarkOf(act(), state);
-    if (remark) parts.push(remark);
+    const now = pull();
+    const at = now && interaction.view()?.toPx(now.hand_m);
+    if (!at) return undefined;
     // To the left of the pointer if there is no space on the right.
     const side = at[0] > 0.7 * size().width ? 'left' : 'right';
-    return { text: parts.join(' · '), at, side };
+    return { text: now.words, at, side };
   });
 
   return (
@@ -203,6 +166,9 @@ export function ScenePanel(
         surface={surface}
         onCanvas={start}
         onSize={setSize}
+        // Its pixels do not stay: they are valid only until the browser shows the frame.
+        draw={drawing()?.draw}
+        onPicture={props.onPicture}
       />
       <Show when={label()}>
         {(now) => (

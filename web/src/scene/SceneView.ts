@@ -1,6 +1,6 @@
 // The 3-D scene: takes its inputs and draws one frame when something has changed.
 
-import { Group, PCFShadowMap, Scene, WebGLRenderer } from 'three';
+import { Group, PCFShadowMap, Scene, WebGLRenderer, type Object3D } from 'three';
 import type { History } from '../lab/history';
 import type { MovedWalls } from '../lab/movedWalls';
 import type { Palette } from '../ui/palette';
@@ -8,23 +8,22 @@ import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { UnderTool } from '../plan/layer';
 import type { FloorPicture } from '../plan/floorPicture';
 import { Arm, HIDING } from './arm';
-import { Bead, type Pull } from './bead';
+import type { Pull } from '../plan/paint';
+import { Bead } from './bead';
 import { OrbitCamera } from './orbitCamera';
-import { Floor } from './floor';
+import { Floor, underTool } from './floor';
 import { Light } from './light';
 import { Marks } from './marks';
 import type { LoadedLayer } from './sceneLayer';
 import { Paints } from './paints';
-import { disposeGeometries } from './solids';
+import { dispose } from './solids';
 import { Table } from './table';
 import { Tool } from './tool';
-import { ToolSheet } from './toolSheet';
 import type { TableView, Vec2 } from '../lab/geometry';
 
 const MAX_PIXEL_RATIO = 2;
-
-/** This browser cannot draw 3-D. */
-export class NoWebGl extends Error {}
+const NO_WEBGL =
+  'This browser cannot show the 3-D view: it has no WebGL 2, or WebGL 2 is switched off.';
 
 export interface Now {
   readonly state: StateMessage;
@@ -40,11 +39,11 @@ export interface Now {
 /** The solid objects of one scene. */
 interface Setting {
   readonly scene: SceneMessage;
+  readonly group: Group;
   readonly table: Table;
   readonly tool: Tool;
   readonly marks: Marks;
   readonly bead: Bead;
-  readonly group: Group;
 }
 
 export class SceneView {
@@ -56,10 +55,12 @@ export class SceneView {
   readonly orbit: OrbitCamera;
   private setting: Setting | undefined;
   private floor: Floor | undefined;
-  private sheets: readonly ToolSheet[] = [];
+  /** Pictures that move with the tool. */
+  private readonly underTool = new Group();
   private now: Now | undefined;
   private frame: number | undefined;
 
+  /** Throws an error for the user if this browser cannot draw 3-D. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private palette: Palette,
@@ -70,7 +71,7 @@ export class SceneView {
   ) {
     // Requested here, because the library logs an error if there is no context.
     const context = canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
-    if (!context) throw new NoWebGl();
+    if (!context) throw new Error(NO_WEBGL);
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.setClearAlpha(0);
     this.renderer.localClippingEnabled = true;
@@ -79,7 +80,7 @@ export class SceneView {
     this.paints = new Paints(palette, isBold);
     this.arm = new Arm(this.paints);
     this.arm.group.visible = false;
-    this.world.add(this.light.group, this.arm.group);
+    this.world.add(this.light.group, this.arm.group, this.underTool);
     this.orbit = new OrbitCamera(() => {
       this.updateView();
     });
@@ -97,14 +98,13 @@ export class SceneView {
   recolor(palette: Palette): void {
     this.palette = palette;
     this.paints.recolor(palette);
-    this.setting?.table.recolor(palette);
-    this.setting?.bead.recolor(palette);
+    if (this.setting) this.show(this.setting.scene);
     this.request();
   }
 
   /** Sets up everything that depends on the scene. */
   show(scene: SceneMessage): void {
-    this.clear();
+    this.remove(this.setting?.group);
     const group = new Group();
     const { paints, palette } = this;
     paints.clipTo(scene.workspace);
@@ -116,10 +116,10 @@ export class SceneView {
       hasArm ? undefined : scene.workspace,
     );
     const marks = new Marks(paints, scene, this.layers);
-    const bead = new Bead(paints, palette, scene.bead_radius_m);
+    const bead = new Bead(paints, scene.bead_radius_m);
     group.add(table.group, tool.group, marks.group, bead.group);
     this.world.add(group);
-    this.setting = { scene, table, tool, marks, bead, group };
+    this.setting = { scene, group, table, tool, marks, bead };
     this.light.shineOn(scene.workspace);
     this.orbit.lookAt(scene.workspace);
     this.place();
@@ -130,7 +130,7 @@ export class SceneView {
     if (this.floor?.of === picture) {
       this.floor.refresh();
     } else {
-      this.removeFloor();
+      this.remove(this.floor?.group);
       this.floor = new Floor(picture, this.paints);
       this.world.add(this.floor.group);
     }
@@ -139,11 +139,9 @@ export class SceneView {
 
   /** Replaces the pictures under the tool. */
   hang(pictures: readonly UnderTool[]): void {
-    const stay = this.sheets.filter((sheet) => pictures.includes(sheet.of));
-    for (const sheet of this.sheets) if (!stay.includes(sheet)) this.removeSheet(sheet);
-    this.sheets = pictures.map(
-      (picture) => stay.find(({ of }) => of === picture) ?? this.addSheet(picture),
-    );
+    for (const sheet of [...this.underTool.children]) this.remove(sheet);
+    const sheets = pictures.map((picture) => underTool(picture, this.palette, this.paints));
+    if (sheets.length > 0) this.underTool.add(...sheets);
     this.place();
     this.request();
   }
@@ -156,10 +154,7 @@ export class SceneView {
   dispose(): void {
     if (this.frame !== undefined) cancelAnimationFrame(this.frame);
     this.canvas.removeEventListener('webglcontextrestored', this.request);
-    this.clear();
-    this.removeFloor();
-    for (const sheet of this.sheets) this.removeSheet(sheet);
-    disposeGeometries(this.arm.group);
+    dispose(this.world);
     this.light.dispose();
     this.paints.dispose();
     this.renderer.dispose();
@@ -167,30 +162,10 @@ export class SceneView {
     this.renderer.forceContextLoss();
   }
 
-  private clear(): void {
-    if (!this.setting) return;
-    const { table, tool, marks, bead, group } = this.setting;
-    this.world.remove(group);
-    for (const part of [table, tool, marks, bead]) part.dispose();
-    this.setting = undefined;
-  }
-
-  private removeFloor(): void {
-    if (!this.floor) return;
-    this.world.remove(this.floor.group);
-    this.floor.dispose();
-    this.floor = undefined;
-  }
-
-  private addSheet(picture: UnderTool): ToolSheet {
-    const sheet = new ToolSheet(picture, this.palette, this.paints);
-    this.world.add(sheet.mesh);
-    return sheet;
-  }
-
-  private removeSheet(sheet: ToolSheet): void {
-    this.world.remove(sheet.mesh);
-    sheet.dispose();
+  private remove(object: Object3D | undefined): void {
+    if (!object) return;
+    object.removeFromParent();
+    dispose(object);
   }
 
   private place(): void {
@@ -201,7 +176,7 @@ export class SceneView {
     table.move(now.walls);
     this.arm.group.visible = state.joints_rad !== null;
     tool.place(state.tool_m, state.joints_rad ? this.arm.pose(state.joints_rad) : 0);
-    for (const sheet of this.sheets) sheet.place(state.tool_m);
+    this.underTool.position.set(state.tool_m[0], state.tool_m[1], 0);
     marks.place(state, now.history, now.layers);
     marks.placeCursor(now.cursor);
     bead.place(state);
@@ -224,13 +199,15 @@ export class SceneView {
     });
   };
 
-  draw(wishedRatio = window.devicePixelRatio): void {
+  /** Draws a frame now, if there is something to draw. */
+  readonly draw = (wishedRatio = window.devicePixelRatio): HTMLCanvasElement | undefined => {
     const { setting, now, orbit, renderer } = this;
-    if (!setting || !now) return;
+    if (!setting || !now) return undefined;
     const ratio = Math.min(MAX_PIXEL_RATIO, wishedRatio);
     if (renderer.getPixelRatio() !== ratio) renderer.setPixelRatio(ratio);
     this.paints.fade(HIDING, orbit.hiding());
     setting.bead.fit(orbit.camera);
     renderer.render(this.world, orbit.camera);
-  }
+    return this.canvas;
+  };
 }

@@ -1,13 +1,11 @@
 // The bead with its halo, and the hand's spring.
 
-import { Group, Mesh, SphereGeometry, Sprite, SpriteMaterial, CanvasTexture, Vector3 } from 'three';
+import { CanvasTexture, Group, Mesh, SphereGeometry, Sprite, Vector3 } from 'three';
 import type { PerspectiveCamera } from 'three';
-import type { Palette } from '../ui/palette';
 import type { StateMessage } from '../net/protocol.gen';
 import { ORDER, type Paints } from './paints';
-import { disposeGeometries } from './solids';
 import { Strokes } from './strokes';
-import type { Vec2 } from '../lab/geometry';
+import type { Pull } from '../plan/paint';
 
 /** The bead has a diameter of 5 mm. From a distance it is enlarged to stay visible. */
 const MIN_RADIUS_PX = 5;
@@ -25,6 +23,7 @@ const LEAD = 0.12;
 /** Height of the hand over the table, normally and while it lifts. */
 const HAND_UP_M = 0.006;
 const LIFTED_UP_M = 0.03;
+const UP = new Vector3(0, 0, 1);
 
 /** A white ring around a glow. The material gives the colour. */
 function haloTexture(): CanvasTexture {
@@ -49,9 +48,16 @@ function haloTexture(): CanvasTexture {
   return new CanvasTexture(canvas);
 }
 
-export interface Pull {
-  readonly hand_m: Vec2;
-  readonly lifted: boolean;
+/** The spring with a length and a radius of 1, upright. */
+function coil(paints: Paints): Strokes {
+  const points = COILS * COIL_POINTS;
+  const spring = new Strokes(paints, 'hand', points + 2, { width_px: 2, through: true });
+  spring.move(0, 0, 0);
+  for (let i = 0; i <= points; i++) {
+    const angle = (2 * Math.PI * i) / COIL_POINTS;
+    spring.line(Math.cos(angle), Math.sin(angle), LEAD + ((1 - 2 * LEAD) * i) / points);
+  }
+  return spring.line(0, 0, 1).done();
 }
 
 export class Bead {
@@ -62,42 +68,22 @@ export class Bead {
   private readonly grip: Mesh;
   private readonly at = new Vector3();
   private readonly along = new Vector3();
-  private readonly u = new Vector3();
-  private readonly v = new Vector3();
 
   constructor(
     private readonly paints: Paints,
-    palette: Palette,
     private readonly radius_m: number,
   ) {
     this.ball = new Mesh(new SphereGeometry(1, 28, 18), paints.glowing('bead'));
     this.ball.castShadow = true;
-    // Visible also behind the arm and the walls.
-    this.halo = new Sprite(
-      new SpriteMaterial({
-        map: haloTexture(),
-        sizeAttenuation: false,
-        depthTest: false,
-        depthWrite: false,
-        transparent: true,
-      }),
-    );
-    this.spring = new Strokes(paints, 'hand', COILS * COIL_POINTS + 2, {
-      width_px: 2,
-      through: true,
-    });
+    this.halo = new Sprite(paints.sprite('bead', haloTexture));
+    this.spring = coil(paints);
     this.grip = new Mesh(new SphereGeometry(0.004, 18, 12), paints.glowing('hand'));
     this.group.renderOrder = ORDER.solids;
     const air = new Group();
     air.renderOrder = ORDER.air;
     air.add(this.halo, this.spring.object);
     this.group.add(this.ball, this.grip, air);
-    this.recolor(palette);
     this.pull(undefined);
-  }
-
-  recolor(palette: Palette): void {
-    this.halo.material.color.set(palette.bead);
   }
 
   place(state: StateMessage): void {
@@ -110,14 +96,18 @@ export class Bead {
 
   /** Draws the spring from the bead to the hand, or removes it. Call it after `place`. */
   pull(pull: Pull | undefined): void {
-    this.spring.clear();
-    this.grip.visible = pull !== undefined;
-    if (pull) {
-      const up_m = pull.lifted ? LIFTED_UP_M : HAND_UP_M;
-      this.grip.position.set(...pull.hand_m, up_m);
-      this.coil(this.grip.position);
-    }
-    this.spring.done();
+    const { along, at, grip } = this;
+    const spring = this.spring.object;
+    grip.visible = pull !== undefined;
+    spring.visible = pull !== undefined;
+    if (!pull) return;
+    grip.position.set(...pull.hand_m, pull.isLifted ? LIFTED_UP_M : HAND_UP_M);
+    along.subVectors(grip.position, at);
+    const length_m = along.length();
+    const radius_m = Math.min(COIL_M, 0.15 * length_m);
+    spring.position.copy(at);
+    spring.scale.set(radius_m, radius_m, length_m);
+    spring.quaternion.setFromUnitVectors(UP, along.normalize());
   }
 
   /** Sets the sizes that are given in screen pixels. */
@@ -132,37 +122,5 @@ export class Bead {
     this.ball.position.copy(this.at);
     this.ball.position.z += radius_m - this.radius_m;
     this.halo.position.copy(this.ball.position);
-  }
-
-  dispose(): void {
-    disposeGeometries(this.group);
-    this.halo.material.map?.dispose();
-    this.halo.material.dispose();
-  }
-
-  private coil(hand: Vector3): void {
-    const { at, along, u, v, spring } = this;
-    along.subVectors(hand, at);
-    const length_m = along.length();
-    if (length_m < 1e-6) return;
-    along.divideScalar(length_m);
-    u.set(-along.y, along.x, 0);
-    if (u.lengthSq() < 1e-6) u.set(1, 0, 0);
-    u.normalize();
-    v.crossVectors(along, u);
-    const radius_m = Math.min(COIL_M, 0.15 * length_m);
-    spring.move(at.x, at.y, at.z);
-    for (let i = 0; i <= COILS * COIL_POINTS; i++) {
-      const share = LEAD + ((1 - 2 * LEAD) * i) / (COILS * COIL_POINTS);
-      const angle = (2 * Math.PI * i) / COIL_POINTS;
-      const [cos, sin] = [radius_m * Math.cos(angle), radius_m * Math.sin(angle)];
-      const s = share * length_m;
-      spring.line(
-        at.x + along.x * s + u.x * cos + v.x * sin,
-        at.y + along.y * s + u.y * cos + v.y * sin,
-        at.z + along.z * s + u.z * cos + v.z * sin,
-      );
-    }
-    spring.line(hand.x, hand.y, hand.z);
   }
 }

@@ -1,4 +1,4 @@
-// The floor with the picture of the base map, and the numbers of the axes around it.
+// Pictures that lie on the table: the floor with the base map, the numbers of the axes around it, and those under the tool.
 
 import {
   CanvasTexture,
@@ -9,109 +9,111 @@ import {
   PlaneGeometry,
   SRGBColorSpace,
   ShadowMaterial,
+  type Material,
+  type MeshBasicMaterialParameters,
 } from 'three';
 import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
-import { createNumbersPicture, type FloorPicture, repaintNumbers } from '../plan/floorPicture';
+import { numbersPicture, type FloorPicture } from '../plan/floorPicture';
+import type { UnderTool } from '../plan/layer';
 import { ORDER, type Paints } from './paints';
-import { disposeGeometries } from './solids';
 
 /** Height of floor layers over the floor, so that they do not flicker. */
 const HAZE_UP_M = 1e-4;
 const SHADOW_UP_M = 3e-4;
+const UNDER_TOOL_UP_M = 4e-4;
 /** The numbers are on the table, a little below the floor. */
 const NUMBERS_UP_M = -2e-4;
 const SHADOW_OPACITY = 0.4;
 /** A pure white or black floor would show no light or shadow. */
 const HAZE_OPACITY = 0.09;
 const ANISOTROPY = 8;
+const UNDER_TOOL_PX = 512;
 
 /** A sheet on the table with the size of its picture's area. */
-function sheet({ canvas, view, ratio }: FloorPicture, material: MeshBasicMaterial): Mesh {
-  const width_m = canvas.width / ratio / view.pxPerM;
-  const height_m = canvas.height / ratio / view.pxPerM;
-  const mesh = new Mesh(new PlaneGeometry(width_m, height_m), material);
-  const left_m = -view.originX / view.pxPerM;
-  const top_m = view.originY / view.pxPerM;
-  mesh.position.set(left_m + width_m / 2, top_m - height_m / 2, 0);
-  return mesh;
-}
-
-function textureOf({ canvas }: FloorPicture): CanvasTexture {
+function lay(
+  { canvas, view, ratio }: Omit<FloorPicture, 'workspace'>,
+  look: MeshBasicMaterialParameters,
+): { sheet: Mesh; texture: CanvasTexture } {
   const texture = new CanvasTexture(canvas);
   texture.colorSpace = SRGBColorSpace;
-  return texture;
+  const width_m = canvas.width / ratio / view.pxPerM;
+  const height_m = canvas.height / ratio / view.pxPerM;
+  const sheet = new Mesh(
+    new PlaneGeometry(width_m, height_m),
+    new MeshBasicMaterial({ ...look, map: texture }),
+  );
+  const left_m = -view.originX / view.pxPerM;
+  const top_m = view.originY / view.pxPerM;
+  sheet.position.set(left_m + width_m / 2, top_m - height_m / 2, 0);
+  return { sheet, texture };
 }
 
 export class Floor {
   readonly group = new Group();
   private readonly texture: CanvasTexture;
-  private readonly picture: MeshBasicMaterial;
-  private readonly shadow = new ShadowMaterial({ opacity: SHADOW_OPACITY, depthWrite: false });
 
   constructor(
     readonly of: FloorPicture,
     paints: Paints,
   ) {
-    this.texture = textureOf(of);
+    const { sheet, texture } = lay(of, {});
+    this.texture = texture;
     // The picture changes with every camera image, so mipmaps would cost too much.
-    this.texture.generateMipmaps = false;
-    this.texture.minFilter = LinearFilter;
-    this.picture = new MeshBasicMaterial({ map: this.texture });
-    const floor = sheet(of, this.picture);
-    const haze = new Mesh(floor.geometry, paints.flat('muted', { opacity: HAZE_OPACITY }));
-    haze.position.copy(floor.position).setZ(HAZE_UP_M);
-    const shadow = new Mesh(floor.geometry, this.shadow);
-    shadow.position.copy(floor.position).setZ(SHADOW_UP_M);
+    texture.generateMipmaps = false;
+    texture.minFilter = LinearFilter;
+    const over = (material: Material, up_m: number): Mesh => {
+      const layer = new Mesh(sheet.geometry, material);
+      layer.position.copy(sheet.position).setZ(up_m);
+      return layer;
+    };
+    const haze = over(paints.flat('muted', { opacity: HAZE_OPACITY }), HAZE_UP_M);
+    const shadow = over(
+      new ShadowMaterial({ opacity: SHADOW_OPACITY, depthWrite: false }),
+      SHADOW_UP_M,
+    );
     shadow.renderOrder = 1;
     shadow.receiveShadow = true;
     this.group.renderOrder = ORDER.floor;
-    this.group.add(floor, haze, shadow);
+    this.group.add(sheet, haze, shadow);
   }
 
   /** Call this when the picture has changed. */
   refresh(): void {
     this.texture.needsUpdate = true;
   }
-
-  dispose(): void {
-    disposeGeometries(this.group);
-    this.texture.dispose();
-    this.picture.dispose();
-    this.shadow.dispose();
-  }
 }
 
-export class Numbers {
-  readonly group = new Group();
-  private readonly picture: FloorPicture;
-  private readonly texture: CanvasTexture;
-  private readonly material: MeshBasicMaterial;
+export function axisNumbers(palette: Palette, workspace: Rect): Group {
+  const { sheet, texture } = lay(numbersPicture(workspace, palette), {
+    transparent: true,
+    depthWrite: false,
+  });
+  texture.anisotropy = ANISOTROPY;
+  sheet.position.z = NUMBERS_UP_M;
+  const group = new Group().add(sheet);
+  group.renderOrder = ORDER.floor;
+  return group;
+}
 
-  constructor(palette: Palette, workspace: Rect) {
-    this.picture = createNumbersPicture(workspace);
-    this.texture = textureOf(this.picture);
-    this.texture.anisotropy = ANISOTROPY;
-    this.material = new MeshBasicMaterial({
-      map: this.texture,
+/** A layer's picture around the origin, like in the plan view. */
+export function underTool(picture: UnderTool, palette: Palette, paints: Paints): Mesh {
+  const canvas = document.createElement('canvas');
+  canvas.width = UNDER_TOOL_PX;
+  canvas.height = UNDER_TOOL_PX;
+  const ctx = canvas.getContext('2d');
+  const half_px = UNDER_TOOL_PX / 2;
+  const view = { originX: half_px, originY: half_px, pxPerM: half_px / picture.halfSide_m };
+  if (ctx) picture.draw(ctx, view, palette);
+  const { sheet } = lay(
+    { canvas, view, ratio: 1 },
+    {
       transparent: true,
+      depthTest: false,
       depthWrite: false,
-    });
-    const mesh = sheet(this.picture, this.material);
-    mesh.position.z = NUMBERS_UP_M;
-    this.group.renderOrder = ORDER.floor;
-    this.group.add(mesh);
-    this.recolor(palette);
-  }
-
-  recolor(palette: Palette): void {
-    repaintNumbers(this.picture, palette);
-    this.texture.needsUpdate = true;
-  }
-
-  dispose(): void {
-    disposeGeometries(this.group);
-    this.texture.dispose();
-    this.material.dispose();
-  }
+      clippingPlanes: paints.overTheTable(),
+    },
+  );
+  sheet.position.z = UNDER_TOOL_UP_M;
+  return sheet;
 }

@@ -1,11 +1,10 @@
 // Marks on the table and over it: goal, cursor, the tool's place, and the objects of the layers.
 
-import { CircleGeometry, Group, Mesh } from 'three';
+import { CircleGeometry, Group, Mesh, type Object3D } from 'three';
 import type { History } from '../lab/history';
 import { GOAL_RADIUS_M, type SceneMessage, type StateMessage } from '../net/protocol.gen';
-import { ORDER, type Paints } from './paints';
+import { ORDER, type PaintName, type Paints, type Stroke } from './paints';
 import type { LoadedLayer, SceneObject } from './sceneLayer';
-import { disposeGeometries } from './solids';
 import { Strokes } from './strokes';
 import type { Vec2 } from '../lab/geometry';
 
@@ -17,25 +16,43 @@ const CURSOR_M = [0.004, 0.014] as const;
 const TRACKED_M = 0.005;
 const CROSS_M = 0.006;
 
+/** Four lines around a free middle. */
+function crosshair(paints: Paints): Strokes {
+  const lines = new Strokes(paints, 'focus', 4, { width_px: 2, through: true });
+  const [near, far] = CURSOR_M;
+  for (const side of [-1, 1]) {
+    lines.move(side * near, 0, 0).line(side * far, 0, 0);
+    lines.move(0, side * near, 0).line(0, side * far, 0);
+  }
+  return lines.done();
+}
+
 export class Marks {
   readonly group = new Group();
   private readonly goal = new Group();
   private readonly objects: readonly (SceneObject & { readonly id: string })[];
-  private readonly tracked: Strokes;
-  private readonly cursor: Strokes;
-  private readonly spot: Strokes;
-  private readonly plumb: Strokes;
+  private readonly tracked: Object3D;
+  private readonly cursor: Object3D;
+  /** The tool's place on the table, which is hard to see in perspective. */
+  private readonly spot: Object3D;
+  /** From the tool down to the table. */
+  private readonly plumb: Object3D;
   private readonly steering: Strokes;
 
   constructor(paints: Paints, scene: SceneMessage, layers: readonly LoadedLayer[]) {
+    const strokes = (name: PaintName, capacity: number, look: Omit<Stroke, 'through'>): Strokes =>
+      new Strokes(paints, name, capacity, { ...look, through: true });
     this.objects = layers.map(({ id, create }) => ({ id, ...create(paints, scene) }));
-    this.tracked = new Strokes(paints, 'text', 2, { width_px: 1, opacity: 0.8, through: true });
-    this.cursor = new Strokes(paints, 'focus', 4, { width_px: 2, through: true });
-    this.steering = new Strokes(paints, 'you', 25, { width_px: 2, through: true });
-    this.plumb = new Strokes(paints, 'tool', 1, { width_px: 1.25, opacity: 0.8 });
-    this.spot = new Strokes(paints, 'tool', 24, { width_px: 1.5, opacity: 0.9, through: true });
+    const tracked = strokes('text', 2, { width_px: 1, opacity: 0.8 });
+    this.tracked = tracked.cross(0, 0, 0, TRACKED_M).done().object;
+    this.cursor = crosshair(paints).object;
+    this.steering = strokes('you', 25, { width_px: 2 });
+    const plumb = new Strokes(paints, 'tool', 1, { width_px: 1.25, opacity: 0.8 });
+    this.plumb = plumb.move(0, 0, 0).line(0, 0, 1).done().object;
+    const spot = strokes('tool', 24, { width_px: 1.5, opacity: 0.9 });
+    this.spot = spot.circle(0, 0, 0, CROSS_M, 24).done().object;
 
-    const ring = new Strokes(paints, 'goal', 66, { width_px: 2.5, through: true });
+    const ring = strokes('goal', 66, { width_px: 2.5 });
     ring.circle(0, 0, 0, GOAL_RADIUS_M).cross(0, 0, 0, CROSS_M).done();
     const disc = new Mesh(
       new CircleGeometry(GOAL_RADIUS_M, 48),
@@ -44,18 +61,10 @@ export class Marks {
     this.goal.add(disc, ring.object);
     const air = new Group();
     air.renderOrder = ORDER.air;
-    air.add(this.plumb.object);
+    air.add(this.plumb);
     this.group.renderOrder = ORDER.marks;
-    this.group.add(this.goal, air);
-    for (const { object } of [
-      ...this.objects,
-      this.tracked,
-      this.cursor,
-      this.spot,
-      this.steering,
-    ]) {
-      this.group.add(object);
-    }
+    this.group.add(this.goal, air, ...this.objects.map(({ object }) => object));
+    this.group.add(this.tracked, this.cursor, this.spot, this.steering.object);
   }
 
   /** Updates the marks to `state` and the shown layers. */
@@ -67,12 +76,10 @@ export class Marks {
     }
     this.goal.visible = state.goal_m !== null;
     if (state.goal_m) this.goal.position.set(state.goal_m[0], state.goal_m[1], GOAL_UP_M);
-    this.tracked
-      .clear()
-      .cross(...state.bead_tracked_m, TOOL_UP_M, TRACKED_M)
-      .done();
-    // Marks the tool's place on the table, which is hard to see in perspective.
-    this.spot.clear().circle(x, y, TOOL_UP_M, CROSS_M, 24).done();
+    this.tracked.position.set(...state.bead_tracked_m, TOOL_UP_M);
+    this.spot.position.set(x, y, TOOL_UP_M);
+    this.plumb.position.copy(this.spot.position);
+    this.plumb.scale.z = z - TOOL_UP_M;
     const steering = this.steering.clear();
     if (state.steer_m) {
       const [toX, toY] = state.steer_m;
@@ -80,27 +87,10 @@ export class Marks {
       steering.circle(toX, toY, TOOL_UP_M, CROSS_M, 24);
     }
     steering.done();
-    this.plumb.clear().move(x, y, z).line(x, y, TOOL_UP_M).done();
   }
 
   placeCursor(at: Vec2 | undefined): void {
-    const cursor = this.cursor.clear();
-    if (at) {
-      const [near, far] = CURSOR_M;
-      for (const [dx, dy] of [
-        [1, 0],
-        [-1, 0],
-        [0, 1],
-        [0, -1],
-      ] as const) {
-        cursor.move(at[0] + near * dx, at[1] + near * dy, CURSOR_UP_M);
-        cursor.line(at[0] + far * dx, at[1] + far * dy, CURSOR_UP_M);
-      }
-    }
-    cursor.done();
-  }
-
-  dispose(): void {
-    disposeGeometries(this.group);
+    this.cursor.visible = at !== undefined;
+    if (at) this.cursor.position.set(...at, CURSOR_UP_M);
   }
 }

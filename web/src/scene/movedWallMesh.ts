@@ -8,12 +8,10 @@ import {
   Group,
   LineSegments,
   Mesh,
-  type LineBasicMaterial,
 } from 'three';
 import type { MovedWalls } from '../lab/movedWalls';
 import { WALL_HEIGHT_M } from '../net/protocol.gen';
 import type { Paints } from './paints';
-import { disposeGeometries } from './solids';
 import { WallEdges } from './wallEdges';
 
 const CORNERS = 4;
@@ -48,7 +46,6 @@ export class MovedWallMesh {
 
   constructor(
     paints: Paints,
-    edge: LineBasicMaterial,
     readonly of: MovedWalls,
   ) {
     // A top, a covered side and a side for each piece of an outline.
@@ -65,7 +62,7 @@ export class MovedWallMesh {
     const mesh = new Mesh(this.solid, paints.lit('wall'));
     mesh.castShadow = true;
     mesh.receiveShadow = true;
-    this.group.add(mesh, new LineSegments(this.lines, edge));
+    this.group.add(mesh, new LineSegments(this.lines, paints.edge('wall-edge')));
     // Otherwise every change would need new bounds.
     for (const one of this.group.children) one.frustumCulled = false;
     this.update();
@@ -94,10 +91,6 @@ export class MovedWallMesh {
     this.solid.setDrawRange(0, (TRIANGLES.length / CORNERS) * this.corners);
     send(this.ends, edges.count);
     this.lines.setDrawRange(0, edges.count);
-  }
-
-  dispose(): void {
-    disposeGeometries(this.group);
   }
 
   /** Between two points of an outline and their places at rest. */

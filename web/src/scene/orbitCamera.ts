@@ -6,7 +6,7 @@ import type { Rect } from '../net/protocol.gen';
 import type { Effect } from '../plan/gesture';
 import type { Motion } from '../plan/interaction';
 import { distanceFor, hidingAt, turnedArrow, type ViewpointName, viewpointOf } from './viewpoints';
-import { perspectiveView, pxFromTable } from './perspective';
+import { perspectiveView, pxFromTable, rayAt } from './perspective';
 
 const FIELD_OF_VIEW_DEG = 36;
 const FIELD_OF_VIEW_RAD = (FIELD_OF_VIEW_DEG * Math.PI) / 180;
@@ -19,7 +19,17 @@ const MIN_POLAR_RAD = 1e-6;
 /** The table is not seen from below. */
 const MAX_POLAR_RAD = (88 * Math.PI) / 180;
 const KEY_TURN_RAD = Math.PI / 24;
-const KEY_ZOOM = 0.88;
+const KEY_ZOOM = 1 / 0.88;
+/** Steps of the keys. */
+const KEYS: Partial<Record<string, { left?: number; up?: number; away?: number }>> = {
+  '[': { left: 1 },
+  ']': { left: -1 },
+  PageUp: { up: 1 },
+  PageDown: { up: -1 },
+  '+': { away: -1 },
+  '=': { away: -1 },
+  '-': { away: 1 },
+};
 /** Factor of the distance for 100 pixels of the wheel, or of a movement with the middle button. */
 const ZOOM_PER_100_PX = 0.95;
 /** Two fingers on a touchpad come as a wheel with Ctrl and small steps. */
@@ -98,32 +108,15 @@ export class OrbitCamera implements Motion {
 
   /** Handles a key. Returns false for other keys. */
   key(key: string): boolean {
-    switch (key) {
-      case '[':
-        this.turn(KEY_TURN_RAD, 0);
-        break;
-      case ']':
-        this.turn(-KEY_TURN_RAD, 0);
-        break;
-      case 'PageUp':
-        this.turn(0, KEY_TURN_RAD);
-        break;
-      case 'PageDown':
-        this.turn(0, -KEY_TURN_RAD);
-        break;
-      case '+':
-      case '=':
-        this.zoom(KEY_ZOOM);
-        break;
-      case '-':
-        this.zoom(1 / KEY_ZOOM);
-        break;
-      case 'Home':
-        this.take('Home');
-        return true;
-      default:
-        return false;
+    if (key === 'Home') {
+      this.take('Home');
+      return true;
     }
+    const steps = KEYS[key];
+    if (!steps) return false;
+    const { left = 0, up = 0, away = 0 } = steps;
+    this.turn(left * KEY_TURN_RAD, up * KEY_TURN_RAD);
+    this.zoom(KEY_ZOOM ** away);
     this.place();
     return true;
   }
@@ -144,7 +137,7 @@ export class OrbitCamera implements Motion {
     camera.updateMatrixWorld();
     clipFromBase.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     return {
-      view: perspectiveView(clipFromBase, width_px, height_px),
+      view: perspectiveView(camera, width_px, height_px),
       pxFromTable: pxFromTable(clipFromBase, width_px, height_px).transpose().elements,
     };
   }
@@ -172,10 +165,7 @@ export class OrbitCamera implements Motion {
     if (!at) return;
     const { camera, target } = this;
     const back = camera.getWorldDirection(new Vector3()).negate();
-    const ray = new Vector3(2 * (at[0] / this.width_px) - 1, 1 - 2 * (at[1] / this.height_px), 1)
-      .unproject(camera)
-      .sub(camera.position)
-      .normalize();
+    const ray = rayAt(camera, at, this.width_px, this.height_px);
     target.addScaledVector(ray.add(back), before_m - this.seat.radius);
   }
 

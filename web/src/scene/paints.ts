@@ -2,12 +2,15 @@
 
 import {
   DoubleSide,
+  LineBasicMaterial,
   MeshBasicMaterial,
   MeshPhongMaterial,
   Plane,
+  SpriteMaterial,
   Vector3,
   type Color,
   type Material,
+  type Texture,
 } from 'three';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import type { Palette } from '../ui/palette';
@@ -85,31 +88,42 @@ export class Paints {
 
   /** For moving parts over the table: drawn after the marks, with variable opacity. */
   over(name: PaintName): MeshPhongMaterial {
-    const make = (): MeshPhongMaterial => new MeshPhongMaterial({ ...GLOSS, transparent: true });
-    return this.shared(`over ${name}`, name, make);
+    const look = { ...GLOSS, transparent: true };
+    return this.shared(`over ${name}`, name, () => new MeshPhongMaterial(look));
   }
 
   /** For moving parts, glowing. */
   glowing(name: PaintName): MeshPhongMaterial {
-    const make = (): MeshPhongMaterial => {
-      const material = new MeshPhongMaterial({ ...GLOSS, transparent: true });
-      material.emissiveIntensity = GLOW;
-      return material;
-    };
-    return this.shared(`glowing ${name}`, name, make);
+    const look = { ...GLOSS, transparent: true, emissiveIntensity: GLOW };
+    return this.shared(`glowing ${name}`, name, () => new MeshPhongMaterial(look));
   }
 
   /** For drawings: without light and shadow, visible from both sides. */
   flat(name: PaintName, sheet: Sheet): MeshBasicMaterial {
-    const make = (): MeshBasicMaterial =>
-      new MeshBasicMaterial({ side: DoubleSide, ...this.sheet(sheet) });
-    return this.shared(`flat ${name} ${JSON.stringify(sheet)}`, name, make);
+    const look = { side: DoubleSide, ...this.sheet(sheet) };
+    const key = `flat ${name} ${JSON.stringify(sheet)}`;
+    return this.shared(key, name, () => new MeshBasicMaterial(look));
   }
 
   stroke(name: PaintName, stroke: Stroke): LineMaterial {
-    const make = (): LineMaterial =>
-      new LineMaterial({ clipping: stroke.clipped ?? false, ...this.sheet(stroke) });
-    return this.shared(`stroke ${name} ${JSON.stringify(stroke)}`, name, make, stroke.width_px);
+    const look = { clipping: stroke.clipped ?? false, ...this.sheet(stroke) };
+    const key = `stroke ${name} ${JSON.stringify(stroke)}`;
+    return this.shared(key, name, () => new LineMaterial(look), stroke.width_px);
+  }
+
+  /** Lines of one pixel. */
+  edge(name: PaintName): LineBasicMaterial {
+    return this.shared(`edge ${name}`, name, () => new LineBasicMaterial());
+  }
+
+  /** A picture that faces the camera, visible also behind the arm and the walls. */
+  sprite(name: PaintName, picture: () => Texture): SpriteMaterial {
+    const look = { sizeAttenuation: false, ...this.sheet({ through: true }) };
+    return this.shared(
+      `sprite ${name}`,
+      name,
+      () => new SpriteMaterial({ ...look, map: picture() }),
+    );
   }
 
   /** Sets the opacity of `over(name)`, from 0 to 1. */
@@ -137,8 +151,10 @@ export class Paints {
   }
 
   dispose(): void {
-    for (const { material } of this.paints.values()) material.dispose();
-    this.paints.clear();
+    for (const { material } of this.paints.values()) {
+      if (material instanceof SpriteMaterial) material.map?.dispose();
+      material.dispose();
+    }
   }
 
   private sheet({ opacity = 1, through = false, clipped = false }: Sheet) {
@@ -161,6 +177,7 @@ export class Paints {
     // The key names the kind.
     if (known) return known.material as M;
     const material = make();
+    material.userData.isShared = true;
     const paint = { name, material, ...(width_px !== undefined && { width_px }) };
     this.apply(paint);
     this.paints.set(key, paint);

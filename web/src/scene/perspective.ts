@@ -1,6 +1,6 @@
 // Converts between the table and a perspective view of it. Pure except for three's matrices.
 
-import { Matrix3, Vector3, type Matrix4 } from 'three';
+import { Matrix3, Vector3, type Matrix4, type PerspectiveCamera } from 'three';
 import type { TableView, Vec2 } from '../lab/geometry';
 
 /** Homogeneous matrix from table to pixels, row by row. */
@@ -19,38 +19,37 @@ export function pxFromTable(clipFromBase: Matrix4, widthPx: number, heightPx: nu
 
 /** The mapping of the present camera. It does not follow later changes. */
 export function perspectiveView(
-  clipFromBase: Matrix4,
+  camera: PerspectiveCamera,
   widthPx: number,
   heightPx: number,
 ): TableView {
-  const fromTable = pxFromTable(clipFromBase, widthPx, heightPx);
-  const toTable = fromTable.clone().invert();
-  const e = [...clipFromBase.elements];
-  const at = (i: number): number => e[i] ?? 0;
-  // The share of the height, in the order of the rows of `fromTable`.
-  const perHeight: readonly [number, number, number] = [
-    (widthPx / 2) * (at(8) + at(11)),
-    (heightPx / 2) * (at(11) - at(9)),
-    at(11),
-  ];
-  const place = new Vector3();
-
+  const now = camera.clone();
   return {
-    toPx: ([x_m, y_m]: Vec2, height_m = 0) => {
-      place.set(x_m, y_m, 1).applyMatrix3(fromTable);
-      const depth = place.z + height_m * perHeight[2];
-      if (depth <= 0) return undefined;
-      const across = place.x + height_m * perHeight[0];
-      const down = place.y + height_m * perHeight[1];
-      return [across / depth, down / depth];
+    toPx: ([x_m, y_m], height_m = 0) => {
+      const at = new Vector3(x_m, y_m, height_m).applyMatrix4(now.matrixWorldInverse);
+      if (at.z >= 0) return undefined;
+      const { x, y } = at.applyMatrix4(now.projectionMatrix);
+      return [((1 + x) * widthPx) / 2, ((1 - y) * heightPx) / 2];
     },
-    toWorld: ([x_px, y_px]: Vec2) => {
-      const found = new Vector3(x_px, y_px, 1).applyMatrix3(toTable);
-      if (found.z === 0) return undefined;
-      const [x_m, y_m] = [found.x / found.z, found.y / found.z];
-      // A ray above the horizon meets the table behind the camera.
-      const isAhead = place.set(x_m, y_m, 1).applyMatrix3(fromTable).z > 0;
-      return isAhead ? [x_m, y_m] : undefined;
+    toWorld: (px) => {
+      const ray = rayAt(now, px, widthPx, heightPx);
+      // Above the horizon it does not meet the table.
+      if (ray.z >= 0) return undefined;
+      const { x, y } = ray.multiplyScalar(-now.position.z / ray.z).add(now.position);
+      return [x, y];
     },
   };
+}
+
+/** Direction from the camera to what is seen at a pixel. */
+export function rayAt(
+  camera: PerspectiveCamera,
+  [x_px, y_px]: Vec2,
+  widthPx: number,
+  heightPx: number,
+): Vector3 {
+  return new Vector3((2 * x_px) / widthPx - 1, 1 - (2 * y_px) / heightPx, 1)
+    .unproject(camera)
+    .sub(camera.position)
+    .normalize();
 }

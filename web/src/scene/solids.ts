@@ -9,6 +9,7 @@ import {
   LatheGeometry,
   Matrix4,
   Mesh,
+  MeshBasicMaterial,
   Quaternion,
   Vector2,
   Vector3,
@@ -32,6 +33,14 @@ export interface Line {
 
 const vector = ([x, y, z]: Point): Vector3 => new Vector3(x, y, z);
 
+/** Puts the origin at a place on the line and y, the axis of three's round solids, toward another. */
+function onLine({ origin, along }: Line, from_m: number, to_m: number): Matrix4 {
+  const toward = vector(along).multiplyScalar(Math.sign(to_m - from_m));
+  const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), toward);
+  const at = vector(origin).addScaledVector(vector(along), from_m);
+  return new Matrix4().compose(at, turn, new Vector3(1, 1, 1));
+}
+
 export class Solids {
   private readonly pieces = new Map<PaintName, BufferGeometry[]>();
 
@@ -45,11 +54,7 @@ export class Solids {
   ): this {
     const length_m = Math.abs(to_m - from_m);
     const geometry = new CylinderGeometry(endRadius_m, radius_m, length_m, ROUND);
-    const along = vector(line.along).multiplyScalar(Math.sign(to_m - from_m));
-    // Cylinders of three are along y.
-    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along);
-    const middle = vector(line.origin).addScaledVector(vector(line.along), (from_m + to_m) / 2);
-    return this.add(name, geometry, new Matrix4().compose(middle, turn, new Vector3(1, 1, 1)));
+    return this.add(name, geometry.translate(0, length_m / 2, 0), onLine(line, from_m, to_m));
   }
 
   /** A lid from its rim at the first place to its domed top at the second: half of the ball r⁴ + z⁴ = 1. */
@@ -65,14 +70,7 @@ export class Solids {
       const across = Math.sqrt(Math.max(0, Math.cos(angle)));
       return new Vector2(radius_m * across, length_m * Math.sqrt(Math.sin(angle)));
     });
-    // Lathes turn around y.
-    const turn = new Quaternion().setFromUnitVectors(
-      new Vector3(0, 1, 0),
-      vector(line.along).multiplyScalar(Math.sign(top_m - rim_m)),
-    );
-    const rim = vector(line.origin).addScaledVector(vector(line.along), rim_m);
-    const at = new Matrix4().compose(rim, turn, new Vector3(1, 1, 1));
-    return this.add(name, new LatheGeometry(profile, ROUND), at);
+    return this.add(name, new LatheGeometry(profile, ROUND), onLine(line, rim_m, top_m));
   }
 
   box(name: PaintName, center: Point, size: Point): this {
@@ -101,10 +99,17 @@ export class Solids {
   }
 }
 
-/** Frees the graphics memory of `object` and its children. Shared materials stay. */
-export function disposeGeometries(object: Object3D): void {
+/** Frees the graphics memory of `object` and its children. The materials of `Paints` stay. */
+export function dispose(object: Object3D): void {
   object.traverse((one) => {
-    if ('geometry' in one) (one as Mesh).geometry.dispose();
+    if (!('geometry' in one)) return;
+    const { geometry, material } = one as Mesh;
+    geometry.dispose();
+    for (const own of [material].flat()) {
+      if (own.userData.isShared) continue;
+      if (own instanceof MeshBasicMaterial) own.map?.dispose();
+      own.dispose();
+    }
   });
 }
 

@@ -74,13 +74,10 @@ export class Strokes {
   }
 
   /** Shows what was drawn since `clear`. */
-  done(): void {
+  done(): this {
     this.buffer.needsUpdate = true;
     this.object.geometry.instanceCount = this.count;
     this.object.visible = this.count > 0;
-  }
-
-  dispose(): void {
-    this.object.geometry.dispose();
+    return this;
   }
 }

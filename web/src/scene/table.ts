@@ -6,7 +6,6 @@ import {
   ExtrudeGeometry,
   Float32BufferAttribute,
   Group,
-  LineBasicMaterial,
   LineSegments,
   Mesh,
   MeshBasicMaterial,
@@ -18,17 +17,20 @@ import {
 import type { Palette } from '../ui/palette';
 import type { MovedWalls } from '../lab/movedWalls';
 import { WALL_HEIGHT_M, type Polygon, type Rect, type SceneMessage } from '../net/protocol.gen';
+import { around, cornersOf } from '../lab/geometry';
 import { floorMargins } from '../plan/floorPicture';
-import { Numbers } from './floor';
+import { grown } from '../plan/transform';
+import { axisNumbers } from './floor';
 import { MovedWallMesh } from './movedWallMesh';
 import type { Paints } from './paints';
-import { disposeGeometries } from './solids';
+import { dispose } from './solids';
 
 /** Of the table, around the numbers of the axes: a portal's rails lie there. */
 export const EDGE_M = 0.022;
 const THICKNESS_M = 0.018;
 /** Space for the robot's foot. */
-const FOOT_M = 0.115;
+const FOOT: Rect = { x_min_m: -0.115, x_max_m: 0.115, y_min_m: -0.115, y_max_m: 0.115 };
+const RIM_M = 0.004;
 /** Height of the floor over the table, so that the two do not flicker. */
 const GAP_M = 4e-4;
 
@@ -49,14 +51,10 @@ const BORDER_ENDS = 8;
 /** The upper edges of border and walls, which make their shape visible from a distance. */
 function edgeGeometry(walls: readonly Polygon[], border: Rect): BufferGeometry {
   const ends: number[] = [];
-  const { x_min_m, x_max_m, y_min_m, y_max_m } = border;
-  const corners: Polygon['exterior'] = [
-    [x_min_m, y_min_m],
-    [x_max_m, y_min_m],
-    [x_max_m, y_max_m],
-    [x_min_m, y_max_m],
-  ];
-  for (const ring of [corners, ...walls.flatMap((wall) => [wall.exterior, ...wall.holes])]) {
+  for (const ring of [
+    cornersOf(border),
+    ...walls.flatMap((wall) => [wall.exterior, ...wall.holes]),
+  ]) {
     let before = ring.at(-1);
     for (const corner of ring) {
       if (before) ends.push(...before, WALL_HEIGHT_M, ...corner, WALL_HEIGHT_M);
@@ -67,48 +65,28 @@ function edgeGeometry(walls: readonly Polygon[], border: Rect): BufferGeometry {
 }
 
 /** The rim around the workspace: its borders are walls too. */
-function rimGeometry(rect: Rect, width_m: number): ExtrudeGeometry {
-  const ring = (by: number): Vector2[] => [
-    new Vector2(rect.x_min_m - by, rect.y_min_m - by),
-    new Vector2(rect.x_max_m + by, rect.y_min_m - by),
-    new Vector2(rect.x_max_m + by, rect.y_max_m + by),
-    new Vector2(rect.x_min_m - by, rect.y_max_m + by),
-  ];
-  const shape = new Shape(ring(width_m));
-  shape.holes = [new Path(ring(0))];
-  return new ExtrudeGeometry([shape], { depth: WALL_HEIGHT_M, bevelEnabled: false });
-}
+const rimOf = (workspace: Rect): Polygon => ({
+  exterior: cornersOf(grown(workspace, { left: RIM_M, right: RIM_M, top: RIM_M, bottom: RIM_M })),
+  holes: [cornersOf(workspace)],
+});
 
 /** Area of the table: under floor and numbers, and under the robot's foot if there is an arm. */
 export function tableOf(workspace: Rect, hasArm: boolean): Rect {
   const { left, right, bottom, top } = floorMargins(workspace);
-  const side_m = Math.max(left, right) + EDGE_M;
-  const rect = {
-    x_min_m: workspace.x_min_m - side_m,
-    x_max_m: workspace.x_max_m + side_m,
-    y_min_m: workspace.y_min_m - bottom - EDGE_M,
-    y_max_m: workspace.y_max_m + top + EDGE_M,
-  };
-  if (!hasArm) return rect;
-  return {
-    x_min_m: Math.min(rect.x_min_m, -FOOT_M),
-    x_max_m: Math.max(rect.x_max_m, FOOT_M),
-    y_min_m: Math.min(rect.y_min_m, -FOOT_M),
-    y_max_m: Math.max(rect.y_max_m, FOOT_M),
-  };
+  const side = Math.max(left, right) + EDGE_M;
+  const insets = { left: side, right: side, bottom: bottom + EDGE_M, top: top + EDGE_M };
+  const table = grown(workspace, insets);
+  return hasArm ? around(table, FOOT) : table;
 }
 
-const RIM_M = 0.004;
 /** Material of the sides of walls that have moved. */
 const UNSEEN = new MeshBasicMaterial({ visible: false });
 
 export class Table {
   readonly group = new Group();
-  private readonly edge = new LineBasicMaterial();
   private readonly edges: BufferGeometry;
   private readonly wall: Material;
   private readonly walls: Mesh;
-  private readonly numbers: Numbers;
   private moved: MovedWallMesh | undefined;
 
   constructor(
@@ -128,17 +106,14 @@ export class Table {
 
     this.wall = paints.lit('wall');
     this.walls = new Mesh(wallGeometry(scene.walls), this.wall);
-    const rim = new Mesh(rimGeometry(scene.workspace, RIM_M), paints.lit('wall'));
+    const rim = new Mesh(wallGeometry([rimOf(scene.workspace)]), this.wall);
     for (const mesh of [this.walls, rim]) {
       mesh.castShadow = true;
       mesh.receiveShadow = true;
     }
-    this.group.add(slab, this.walls, rim);
     this.edges = edgeGeometry(scene.walls, scene.workspace);
-    this.group.add(new LineSegments(this.edges, this.edge));
-    this.numbers = new Numbers(palette, scene.workspace);
-    this.group.add(this.numbers.group);
-    this.edge.color.set(palette['wall-edge']);
+    const edges = new LineSegments(this.edges, paints.edge('wall-edge'));
+    this.group.add(slab, this.walls, rim, edges, axisNumbers(palette, scene.workspace));
   }
 
   /** Moves the walls, or puts them where they are drawn. */
@@ -149,23 +124,12 @@ export class Table {
     }
     if (this.moved) {
       this.group.remove(this.moved.group);
-      this.moved.dispose();
+      dispose(this.moved.group);
     }
-    this.moved = walls && new MovedWallMesh(this.paints, this.edge, walls);
+    this.moved = walls && new MovedWallMesh(this.paints, walls);
     if (this.moved) this.group.add(this.moved.group);
     // Sides and edges at rest would flicker through the tops of moved walls.
     this.walls.material = this.moved ? [this.wall, UNSEEN] : this.wall;
     this.edges.setDrawRange(0, this.moved ? BORDER_ENDS : Infinity);
-  }
-
-  recolor(palette: Palette): void {
-    this.numbers.recolor(palette);
-    this.edge.color.set(palette['wall-edge']);
-  }
-
-  dispose(): void {
-    disposeGeometries(this.group);
-    this.numbers.dispose();
-    this.edge.dispose();
   }
 }

@@ -5,30 +5,15 @@ import { BLOCKS } from '../net/arm.gen';
 import type { Orientation, Rect } from '../net/protocol.gen';
 import { floorMargins } from '../plan/floorPicture';
 import type { Paints } from './paints';
-import { disposeGeometries, type Point, Solids } from './solids';
+import { type Point, Solids } from './solids';
 import { EDGE_M } from './table';
 
-/** Relative to the tool point, which is the middle of the block's lower face. */
-type At = Point;
-
-export interface Block {
-  readonly size_m: Point;
-  /** Axis from the south pole to the north pole. */
-  readonly along: 0 | 2;
-}
-
 /** The halves at either pole, around the block's own middle above the tool point. */
-export function halvesOf({ size_m, along }: Block): {
-  size_m: Point;
-  north_m: Point;
-  south_m: Point;
-} {
-  const [x, y, z] = size_m;
-  const half: Point = along === 0 ? [x / 2, y, z] : [x, y, z / 2];
-  const middle_m = z / 2;
+function halvesOf({ size_m: [x, y, z], along }: (typeof BLOCKS)[Orientation]) {
   const at = (side: number): Point =>
-    along === 0 ? [(side * x) / 4, 0, middle_m] : [0, 0, middle_m + (side * z) / 4];
-  return { size_m: half, north_m: at(1), south_m: at(-1) };
+    along === 0 ? [(side * x) / 4, 0, z / 2] : [0, 0, z / 2 + (side * z) / 4];
+  const size_m: Point = along === 0 ? [x / 2, y, z] : [x, y, z / 2];
+  return { size_m, north_m: at(1), south_m: at(-1) };
 }
 
 const FINGER_M = 0.011;
@@ -104,7 +89,7 @@ class Portal {
     this.group.add(rails.group(paints), this.bridge);
   }
 
-  place([x, y, z]: At): void {
+  place([x, y, z]: Point): void {
     this.bridge.position.x = x;
     this.carriage.position.y = y;
     this.column.position.z = z;
@@ -132,13 +117,10 @@ export class Tool {
     }
   }
 
-  place(at: At, turn_rad: number): void {
+  /** At the tool point, which is the middle of the block's lower face. */
+  place(at: Point, turn_rad: number): void {
     this.held.position.set(...at);
     this.held.rotation.z = turn_rad;
     this.portal?.place(at);
-  }
-
-  dispose(): void {
-    disposeGeometries(this.group);
   }
 }

@@ -3,6 +3,8 @@
 import { Vector3 } from 'three';
 import type { Rect } from '../net/protocol.gen';
 import { floorMargins } from '../plan/floorPicture';
+import { cornersOf } from '../lab/geometry';
+import { grown } from '../plan/transform';
 import type { Point } from './solids';
 
 export const VIEWPOINTS = ['Home', 'Top', 'Front', 'Side'] as const;
@@ -24,31 +26,16 @@ const ROOM = 1.06;
 /** Height of the bounds over the table, except from above: the magnet and its holder. */
 const SHOWN_UP_M = 0.26;
 
-function corners(rect: Rect, z: number): Point[] {
-  return [
-    [rect.x_min_m, rect.y_min_m, z],
-    [rect.x_max_m, rect.y_min_m, z],
-    [rect.x_max_m, rect.y_max_m, z],
-    [rect.x_min_m, rect.y_max_m, z],
-  ];
-}
+const cornersAt = (rect: Rect, z_m: number): Point[] =>
+  cornersOf(rect).map(([x_m, y_m]) => [x_m, y_m, z_m]);
 
 export function viewpointOf(name: ViewpointName, workspace: Rect): Viewpoint {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
   const [x, y] = [(x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2];
-  const { left, right, bottom } = floorMargins(workspace);
-  const low = corners(
-    {
-      x_min_m: x_min_m - left,
-      x_max_m: x_max_m + right,
-      y_min_m: y_min_m - bottom,
-      y_max_m,
-    },
-    0,
-  );
+  const low = cornersAt(grown(workspace, { ...floorMargins(workspace), top: 0 }), 0);
   const inset = (x_max_m - x_min_m) / 5;
   const narrow = { ...workspace, x_min_m: x_min_m + inset, x_max_m: x_max_m - inset };
-  const both = [...low, ...corners(narrow, SHOWN_UP_M)];
+  const both = [...low, ...cornersAt(narrow, SHOWN_UP_M)];
   switch (name) {
     case 'Home':
       return { target_m: [x, y + 0.02, 0.06], toCamera: [0.36, -1, 0.85], bounds_m: both };
@@ -81,15 +68,8 @@ export function turnedArrow(
   arrow: readonly [number, number],
   azimuth_rad: number,
 ): [number, number] {
-  const quarters = Math.round(azimuth_rad / (Math.PI / 2));
-  const [cos, sin] = (
-    [
-      [1, 0],
-      [0, 1],
-      [-1, 0],
-      [0, -1],
-    ] as const
-  )[((quarters % 4) + 4) % 4] ?? [1, 0];
+  const quarter_rad = Math.round(azimuth_rad / (Math.PI / 2)) * (Math.PI / 2);
+  const [cos, sin] = [Math.round(Math.cos(quarter_rad)), Math.round(Math.sin(quarter_rad))];
   return [cos * arrow[0] - sin * arrow[1], sin * arrow[0] + cos * arrow[1]];
 }
 

@@ -1,48 +1,70 @@
 // A computed curve with its title and the legend of its lines.
 
-import { For, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
+import { For, Show, createEffect, on, onCleanup, onMount, untrack, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import type { Theme } from './theme';
-import { createCurve, type CurveContext, type CurveLine } from './curve';
+import { createCurve, type CurveContext, type CurveLine, showCursor } from './curve';
+import { onSize } from './size';
 import './plot.css';
 
 export function CurvePlot(props: {
+  /** Of a part in a figure. */
+  letter?: string;
   title: string;
   unit: string;
   name: string;
   keys: readonly CurveLine[];
+  /** Beside the keys. */
+  values?: readonly string[];
   theme: () => Theme;
   context: CurveContext;
   data: uPlot.AlignedData;
+  /** Place of the cursor while the pointer is elsewhere. */
+  at?: number | undefined;
 }): JSX.Element {
   let root!: HTMLDivElement;
   onMount(() => {
     const plot = createCurve(root, props.context);
-    const observer = new ResizeObserver(() => {
-      plot.setSize({ width: root.clientWidth, height: root.clientHeight });
+    onSize(root, (size) => {
+      plot.setSize(size);
     });
-    observer.observe(root);
     onCleanup(() => {
-      observer.disconnect();
       plot.destroy();
     });
     createEffect(() => {
-      plot.setData(props.data);
+      plot.batch(() => {
+        plot.setData(props.data);
+      });
+      showCursor(
+        plot,
+        untrack(() => props.at),
+      );
     });
-    createEffect(on(props.theme, () => plot.redraw(true), { defer: true }));
-    // The curve itself does not change.
-    createEffect(on(props.context.rules, () => plot.redraw(false), { defer: true }));
+    createEffect(on([props.theme, props.context.rules], () => plot.redraw(), { defer: true }));
+    createEffect(
+      on(
+        () => props.at,
+        (at) => {
+          showCursor(plot, at);
+        },
+        { defer: true },
+      ),
+    );
   });
   return (
-    <figure class="plot">
+    <figure class="plot" data-part={props.letter}>
       <figcaption>
+        <Show when={props.letter}>{(letter) => <span class="letter">{letter()}</span>}</Show>
         <strong>{props.title}</strong>
         <span class="unit">{props.unit}</span>
         <For each={props.keys}>
-          {(key) => (
+          {(key, index) => (
             <span class="key" data-color={key.color} data-dashed={key.isDashed ? '' : undefined}>
-              {key.label}
+              {key.label}{' '}
+              <Show when={props.values}>
+                {(values) => <span class="number">{values()[index()]}</span>}
+              </Show>
             </span>
           )}
         </For>

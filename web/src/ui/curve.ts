@@ -2,7 +2,6 @@
 
 import uPlot from 'uplot';
 import type { Palette } from './palette';
-import { inside } from './plotArea';
 
 export interface CurveLine {
   readonly label: string;
@@ -29,13 +28,14 @@ export interface Rule {
   readonly label: string;
   readonly color: keyof Palette;
   readonly dashed: boolean;
+  readonly isStrong?: boolean;
 }
 
 export interface CurveContext {
   readonly palette: () => Palette;
   readonly lines: readonly CurveLine[];
   /** Pairs of lines, upper one first, with the area between them filled in the colour of the upper one. */
-  readonly bands: readonly (readonly [number, number])[];
+  readonly bands?: readonly (readonly [number, number])[];
   /** Pairs of lines whose points are joined by an error bar in the colour of the upper one. */
   readonly bars?: readonly (readonly [number, number])[];
   readonly xRange: () => [number, number];
@@ -43,9 +43,11 @@ export interface CurveContext {
   /** Where the axis has its numbers, of which `most` have room; without, at round ones. */
   readonly xSplits?: (most: number) => number[];
   readonly xText: (value: number) => string;
-  readonly yText: (value: number) => string;
-  readonly shades: () => readonly Shade[];
+  /** `step` is the distance to the next number. */
+  readonly yText: (value: number, step: number) => string;
+  readonly shades?: () => readonly Shade[];
   readonly rules: () => readonly Rule[];
+  /** Called with the point under the pointer, and with nothing when the pointer leaves. */
   readonly onCursor: (index: number | undefined) => void;
 }
 
@@ -65,10 +67,21 @@ function translucent(color: string): string {
   return /^#[0-9a-f]{6}$/i.test(color) ? color + FILL_ALPHA : color;
 }
 
+/** Draws over the plot, clipped to its axes. `ratio` is canvas pixels per CSS pixel. */
+function inside(u: uPlot, draw: (ctx: CanvasRenderingContext2D, ratio: number) => void): void {
+  const { ctx, bbox } = u;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  draw(ctx, window.devicePixelRatio);
+  ctx.restore();
+}
+
 function drawShades(u: uPlot, context: CurveContext): void {
   inside(u, (ctx) => {
     ctx.globalAlpha = SHADE_ALPHA;
-    for (const shade of context.shades()) {
+    for (const shade of context.shades?.() ?? []) {
       const from = u.valToPos(shade.from, 'x', true);
       const to = u.valToPos(shade.to, 'x', true);
       ctx.fillStyle = context.palette()[shade.color];
@@ -98,9 +111,9 @@ function drawRule(u: uPlot, rule: Rule, ctx: CanvasRenderingContext2D, ratio: nu
 
 function drawRules(u: uPlot, context: CurveContext): void {
   inside(u, (ctx, ratio) => {
-    ctx.lineWidth = ratio;
     ctx.font = `${11 * ratio}px system-ui, sans-serif`;
     for (const rule of context.rules()) {
+      ctx.lineWidth = (rule.isStrong ? 2 : 1) * ratio;
       ctx.strokeStyle = context.palette()[rule.color];
       ctx.fillStyle = context.palette()[rule.color];
       drawRule(u, rule, ctx, ratio);
@@ -176,7 +189,8 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
           ...axis,
           size: (u, texts: readonly string[] | null) => widthPx(u, texts ?? []),
           space: 18,
-          values: (_u, ticks) => ticks.map(context.yText),
+          values: (_u, ticks, _axis, _space, step) =>
+            ticks.map((tick) => context.yText(tick, step)),
         },
       ],
       series: [
@@ -191,7 +205,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
           points: { show: line.hasPoints ?? false, size: 5 },
         })),
       ],
-      bands: context.bands.map(([upper, lower]) => ({
+      bands: (context.bands ?? []).map(([upper, lower]) => ({
         series: [upper + 1, lower + 1],
         fill: () => translucent(context.palette()[context.lines[upper]?.color ?? 'text']),
       })),
@@ -209,7 +223,9 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
         ],
         setCursor: [
           (u) => {
-            context.onCursor(u.cursor.idx ?? undefined);
+            const { left = -1, idx } = u.cursor;
+            // Not if it was put there.
+            if (left < 0 || u.over.matches(':hover')) context.onCursor(idx ?? undefined);
           },
         ],
       },
@@ -218,4 +234,10 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
     [[], ...context.lines.map(() => [])],
     root,
   );
+}
+
+/** Puts the cursor at a place on the x axis, or takes it away. */
+export function showCursor(u: uPlot, at: number | undefined): void {
+  const left = at === undefined ? -10 : u.valToPos(at, 'x');
+  u.setCursor({ left, top: left < 0 ? -10 : 5 }, false);
 }

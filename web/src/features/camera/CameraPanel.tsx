@@ -1,6 +1,6 @@
 // What the controllers see: the camera image with its test patch, and the observation.
 
-import { Show, createEffect, createSignal, type JSX } from 'solid-js';
+import { For, Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { counted, fixed } from '../../ui/format';
 import { createCameraBitmap } from '../../lab/cameraBitmap';
 import { blocksPath, patchPath } from '../../lab/homography';
@@ -11,6 +11,12 @@ import { FoldButton } from '../../ui/FoldButton';
 import './camera.css';
 
 type BlocksShown = 'none' | 'quadtree' | 'rectangles';
+
+/** Of the observation. */
+const CHANNELS = [
+  ['image', 'the camera image with 84 by 84 pixels'],
+  ['goal, tool', 'goal in the upper half, tool in the lower half, x on the left, y on the right'],
+] as const;
 
 /** Draws a gray image, one byte per pixel, on a canvas of the same size. */
 function drawGray(canvas: HTMLCanvasElement, gray: Uint8Array): void {
@@ -27,8 +33,7 @@ function drawGray(canvas: HTMLCanvasElement, gray: Uint8Array): void {
 function CameraPictures(props: { lab: Notices & Pictures }): JSX.Element {
   const { lab } = props;
   let cameraCanvas!: HTMLCanvasElement;
-  let channel0!: HTMLCanvasElement;
-  let channel1!: HTMLCanvasElement;
+  const channels: HTMLCanvasElement[] = [];
   const bitmap = createCameraBitmap(lab);
   createEffect(() => {
     const picture = bitmap();
@@ -39,8 +44,9 @@ function CameraPictures(props: { lab: Notices & Pictures }): JSX.Element {
     const picture = lab.observation();
     const size = OBSERVATION_PX * OBSERVATION_PX;
     if (picture?.bytes.length !== 2 * size) return;
-    drawGray(channel0, picture.bytes.subarray(0, size));
-    drawGray(channel1, picture.bytes.subarray(size));
+    channels.forEach((canvas, channel) => {
+      drawGray(canvas, picture.bytes.subarray(channel * size, (channel + 1) * size));
+    });
   });
 
   const [blocksShown, setBlocksShown] = createSignal<BlocksShown>('none');
@@ -105,28 +111,21 @@ function CameraPictures(props: { lab: Notices & Pictures }): JSX.Element {
           </Show>
         </figcaption>
       </figure>
-      <figure>
-        <canvas
-          ref={channel0}
-          class="pixels"
-          width={OBSERVATION_PX}
-          height={OBSERVATION_PX}
-          role="img"
-          aria-label="Observation, channel 0: the camera image with 84 by 84 pixels"
-        />
-        <figcaption>Network: image</figcaption>
-      </figure>
-      <figure>
-        <canvas
-          ref={channel1}
-          class="pixels"
-          width={OBSERVATION_PX}
-          height={OBSERVATION_PX}
-          role="img"
-          aria-label="Observation, channel 1: goal in the upper half, tool in the lower half, x on the left, y on the right"
-        />
-        <figcaption>Network: goal, tool</figcaption>
-      </figure>
+      <For each={CHANNELS}>
+        {([name, shows], channel) => (
+          <figure>
+            <canvas
+              ref={(canvas) => (channels[channel()] = canvas)}
+              class="pixels"
+              width={OBSERVATION_PX}
+              height={OBSERVATION_PX}
+              role="img"
+              aria-label={`Observation, channel ${channel()}: ${shows}`}
+            />
+            <figcaption>Network: {name}</figcaption>
+          </figure>
+        )}
+      </For>
     </>
   );
 }

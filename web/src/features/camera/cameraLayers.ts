@@ -1,6 +1,6 @@
 // The layers of the camera: its field of view, and the obstacles in it.
 
-import type { LayerContext, MapLayer } from '../../plan/layer';
+import { drawn, type LayerContext, type MapLayer } from '../../plan/layer';
 import type { InScene } from '../../scene/sceneLayer';
 import { drawFootprint, drawSensed } from './drawCamera';
 import type { Pictures } from '../../lab/slices';
@@ -23,15 +23,5 @@ export const SENSED_LAYER: MapLayer = {
   swatch: ['sensed'],
   group: 'Camera',
   shownAtFirst: true,
-  create: ({ lab }: LayerContext<Pictures>) => ({
-    aboveWalls: () => () => {
-      const overlay = lab.overlay();
-      return (
-        overlay &&
-        ((ctx, { view, palette }) => {
-          drawSensed(ctx, view, palette, overlay);
-        })
-      );
-    },
-  }),
+  create: ({ lab }: LayerContext<Pictures>) => ({ aboveWalls: drawn(lab.overlay, drawSensed) }),
 };

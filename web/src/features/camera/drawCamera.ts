@@ -1,15 +1,13 @@
 // Draws the camera's field of view and the obstacles in it.
 
 import type { OverlayMessage } from '../../net/protocol.gen';
-import type { MovingPicture } from '../../plan/layer';
-import { pxFromWorld, type View } from '../../plan/transform';
-import type { Palette } from '../../ui/palette';
+import type { BasePicture, MovingPicture } from '../../plan/layer';
+import { pxFromWorld } from '../../plan/transform';
+import type { Ctx } from '../../plan/sheet';
 
 /** Exponent of the superellipse that represents an obstacle. */
 const SUPERELLIPSE = 4;
 const OUTLINE_POINTS = 40;
-
-type Ctx = CanvasRenderingContext2D;
 
 export function drawFootprint(ctx: Ctx, { view, palette, scene, state }: MovingPicture): void {
   const [toolX_m, toolY_m] = state.tool_m;
@@ -24,28 +22,27 @@ export function drawFootprint(ctx: Ctx, { view, palette, scene, state }: MovingP
   ctx.lineJoin = 'round';
   ctx.setLineDash([2, 3]);
   ctx.stroke();
-  ctx.setLineDash([]);
-  ctx.globalAlpha = 1;
 }
 
-export function drawSensed(ctx: Ctx, view: View, palette: Palette, overlay: OverlayMessage): void {
+export function drawSensed(
+  ctx: Ctx,
+  { view, palette }: BasePicture,
+  overlay: OverlayMessage,
+): void {
   ctx.strokeStyle = palette.sensed;
   ctx.fillStyle = palette.sensed;
   ctx.lineWidth = 1.5;
+  const along = (value: number): number => Math.sign(value) * Math.abs(value) ** (2 / SUPERELLIPSE);
   for (const obstacle of overlay.obstacles) {
     const [x, y] = pxFromWorld(view, obstacle.center_m);
-    const [halfX, halfY] = obstacle.half_size_m.map((half) => half * view.pxPerM) as [
-      number,
-      number,
-    ];
+    const [halfX_m, halfY_m] = obstacle.half_size_m;
+    const [halfX, halfY] = [halfX_m * view.pxPerM, halfY_m * view.pxPerM];
     ctx.globalAlpha = 0.35;
     ctx.fillRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
     ctx.globalAlpha = 1;
     ctx.beginPath();
     for (let i = 0; i < OUTLINE_POINTS; i++) {
       const angle = (2 * Math.PI * i) / OUTLINE_POINTS;
-      const along = (value: number): number =>
-        Math.sign(value) * Math.abs(value) ** (2 / SUPERELLIPSE);
       const [edgeX, edgeY] = obstacle.boundary_m;
       ctx.lineTo(
         x + along(Math.cos(angle)) * edgeX * view.pxPerM,

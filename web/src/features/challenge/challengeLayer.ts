@@ -46,7 +46,7 @@ export const CHALLENGE_LAYER: MapLayer = {
         : 0,
     );
     return {
-      aboveWalls: () => () => {
+      aboveWalls: () => {
         if (contest.name() === undefined) return undefined;
         const { ghosts = [], sample_s = 1 } = contest.ghosts() ?? {};
         const sample = frame() / FRAMES_PER_S / sample_s;

@@ -10,7 +10,7 @@ export const GHOSTS_LAYER: MapLayer = {
   shownAtFirst: true,
   isUnclipped: true,
   create: ({ lab }: LayerContext<Compared>) => ({
-    aboveWalls: () => () => {
+    aboveWalls: () => {
       const comparison = lab.comparison.shown();
       if (!comparison) return undefined;
       const tick = lab.comparison.tick();

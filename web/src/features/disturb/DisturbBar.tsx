@@ -1,6 +1,6 @@
 // Disturbances by button: a kick, a push, a move, a blind tracker. They happen now or are added to the script.
 
-import { Match, Show, Switch, createSignal, onCleanup, type JSX } from 'solid-js';
+import { For, Show, createSignal, onCleanup, type JSX } from 'solid-js';
 import {
   blind,
   type Direction,
@@ -33,11 +33,33 @@ import { Form } from '../../ui/fields/Form';
 import { numberOf } from '../../ui/fields/number';
 import './disturb.css';
 
-/** One hour. */
-const LATEST_S = 3600;
-const FARTHEST_CM = 100;
 /** Of a strength, force or duration, in the shown unit. */
 const LEAST = 0.01;
+
+/** Numbers that the form asks for: accessible name, unit, smallest and greatest value, and the value at first. */
+const NUMBERS = {
+  kick_mn_s: ['Strength of the kick in mN·s', 'mN·s', LEAST, 1000 * MOST_IMPULSE_N_S, '1'],
+  push_mn: ['Force of the push in mN', 'mN', LEAST, 1000 * MOST_DRIFT_N, '2'],
+  push_s: ['Duration of the push in seconds', 's', LEAST, MOST_SECONDS, '1'],
+  blind_s: ['Duration of the blindness in seconds', 's', LEAST, MOST_SECONDS, '1'],
+  time_s: ['Time in seconds', 's', 0, 3600, '5'],
+  step: ['Control step on the way to a goal', 'of ¼ s', 1, MOST_STEPS, '30'],
+  passes_m: ['x that the bead passes, in metres', 'm', -10, 10, '0'],
+  within_cm: ['Within this distance of the place in cm', 'cm', 0.1, 100, '2'],
+} as const;
+type NumberName = keyof typeof NUMBERS;
+
+const NUMBERS_OF: Readonly<Record<Kind | Time, readonly NumberName[]>> = {
+  kick: ['kick_mn_s'],
+  push: ['push_mn', 'push_s'],
+  move: [],
+  blind: ['blind_s'],
+  now: [],
+  time: ['time_s'],
+  step: ['step'],
+  passes: ['passes_m'],
+  near: ['within_cm'],
+};
 
 export function DisturbBar(props: {
   lab: Session & Trial;
@@ -50,32 +72,28 @@ export function DisturbBar(props: {
   const [kind, setKind] = createSignal<Kind>('kick');
   const [time, setTime] = createSignal<Time>('now');
   const [direction, setDirection] = createSignal<Direction>('random');
-  const [kick_mn_s, setKick] = createSignal('1');
-  const [push_mn, setPush] = createSignal('2');
-  const [for_s, setFor] = createSignal('1');
+  const [typed, setTyped] = createSignal<Partial<Record<NumberName, string>>>({});
   const [target, setTarget] = createSignal<Place>(here);
-  const [time_s, setTimeS] = createSignal('5');
-  const [step, setStep] = createSignal('30');
-  const [passes_m, setPasses] = createSignal('0');
   const [near, setNear] = createSignal<Place>(here);
-  const [within_cm, setWithin] = createSignal('2');
   onCleanup(() => {
     props.picker.cancel();
   });
 
+  const text = (name: NumberName): string => typed()[name] ?? NUMBERS[name][4];
+  const number = (name: NumberName): number => numberOf(text(name));
   const disabled = (): boolean => !lab.canOperate();
   const isFull = (): boolean => (lab.scene()?.scenario.script.length ?? 0) >= SCRIPT_LIMIT;
   const toward = (): readonly [number, number] => unitVector(direction(), Math.random());
   const disturbance = (): Disturbance => {
     switch (kind()) {
       case 'kick':
-        return kick(numberOf(kick_mn_s()), toward());
+        return kick(number('kick_mn_s'), toward());
       case 'push':
-        return push(numberOf(push_mn()), numberOf(for_s()), toward());
+        return push(number('push_mn'), number('push_s'), toward());
       case 'move':
         return move(numberOf(target().x_m), numberOf(target().y_m));
       case 'blind':
-        return blind(numberOf(for_s()));
+        return blind(number('blind_s'));
     }
   };
   /** Undefined means now. */
@@ -84,17 +102,17 @@ export function DisturbBar(props: {
       case 'now':
         return undefined;
       case 'time':
-        return { tick: Math.round(numberOf(time_s()) / (lab.scene()?.tick_s ?? 1)) };
+        return { tick: Math.round(number('time_s') / (lab.scene()?.tick_s ?? 1)) };
       case 'step':
-        return { step: numberOf(step()) };
+        return { step: number('step') };
       case 'passes':
-        return { passes_x_m: numberOf(passes_m()) };
+        return { passes_x_m: number('passes_m') };
       case 'near':
         return {
           near: {
             x_m: numberOf(near().x_m),
             y_m: numberOf(near().y_m),
-            within_m: numberOf(within_cm()) / 100,
+            within_m: number('within_cm') / 100,
           },
         };
     }
@@ -115,6 +133,30 @@ export function DisturbBar(props: {
     const name = KINDS.find(([id]) => id === kind())?.[1] ?? '';
     return time() === 'now' ? `${name} now` : 'Add to script and restart';
   };
+  const numbers = (choice: () => Kind | Time): JSX.Element => (
+    <For each={NUMBERS_OF[choice()]}>
+      {(name) => {
+        const [label, unit, min, max] = NUMBERS[name];
+        const isLabelled = name === 'within_cm';
+        return (
+          <NumberField
+            hideLabel={!isLabelled}
+            label={isLabelled ? 'within' : label}
+            fullName={label}
+            unit={unit}
+            min={min}
+            max={max}
+            isWhole={name === 'step'}
+            value={text(name)}
+            disabled={disabled()}
+            onInput={(value) => {
+              setTyped({ ...typed(), [name]: value });
+            }}
+          />
+        );
+      }}
+    </For>
+  );
 
   return (
     <div id={props.id} class="disturb" role="group" aria-label="Disturb the bead">
@@ -140,41 +182,16 @@ export function DisturbBar(props: {
           disabled={disabled()}
           onChoose={setKind}
         />
-        <Switch>
-          <Match when={kind() === 'kick'}>
-            <NumberField
-              hideLabel
-              label="Strength of the kick in mN·s"
-              unit="mN·s"
-              min={LEAST}
-              max={1000 * MOST_IMPULSE_N_S}
-              value={kick_mn_s()}
-              disabled={disabled()}
-              onInput={setKick}
-            />
-          </Match>
-          <Match when={kind() === 'push'}>
-            <NumberField
-              hideLabel
-              label="Force of the push in mN"
-              unit="mN"
-              min={LEAST}
-              max={1000 * MOST_DRIFT_N}
-              value={push_mn()}
-              disabled={disabled()}
-              onInput={setPush}
-            />
-          </Match>
-          <Match when={kind() === 'move'}>
-            <PlaceFields
-              name="the new place"
-              value={target()}
-              disabled={disabled()}
-              picker={props.picker}
-              onValue={setTarget}
-            />
-          </Match>
-        </Switch>
+        {numbers(kind)}
+        <Show when={kind() === 'move'}>
+          <PlaceFields
+            name="the new place"
+            value={target()}
+            disabled={disabled()}
+            picker={props.picker}
+            onValue={setTarget}
+          />
+        </Show>
         <Show when={kind() === 'kick' || kind() === 'push'}>
           <ChoiceField
             hideLabel
@@ -185,22 +202,6 @@ export function DisturbBar(props: {
             onChoose={setDirection}
           />
         </Show>
-        <Show when={kind() === 'push' || kind() === 'blind'}>
-          <NumberField
-            hideLabel
-            label={
-              kind() === 'push'
-                ? 'Duration of the push in seconds'
-                : 'Duration of the blindness in seconds'
-            }
-            unit="s"
-            min={LEAST}
-            max={MOST_SECONDS}
-            value={for_s()}
-            disabled={disabled()}
-            onInput={setFor}
-          />
-        </Show>
         <ChoiceField
           hideLabel
           label="Time of the disturbance"
@@ -209,64 +210,16 @@ export function DisturbBar(props: {
           disabled={disabled()}
           onChoose={setTime}
         />
-        <Switch>
-          <Match when={time() === 'time'}>
-            <NumberField
-              hideLabel
-              label="Time in seconds"
-              unit="s"
-              min={0}
-              max={LATEST_S}
-              value={time_s()}
-              disabled={disabled()}
-              onInput={setTimeS}
-            />
-          </Match>
-          <Match when={time() === 'step'}>
-            <NumberField
-              hideLabel
-              label="Control step on the way to a goal"
-              unit="of ¼ s"
-              min={1}
-              max={MOST_STEPS}
-              isWhole
-              value={step()}
-              disabled={disabled()}
-              onInput={setStep}
-            />
-          </Match>
-          <Match when={time() === 'passes'}>
-            <NumberField
-              hideLabel
-              label="x that the bead passes, in metres"
-              unit="m"
-              min={-10}
-              max={10}
-              value={passes_m()}
-              disabled={disabled()}
-              onInput={setPasses}
-            />
-          </Match>
-          <Match when={time() === 'near'}>
-            <PlaceFields
-              name="the place to reach"
-              value={near()}
-              disabled={disabled()}
-              picker={props.picker}
-              onValue={setNear}
-            />
-            <NumberField
-              label="within"
-              fullName="Within this distance of the place in cm"
-              unit="cm"
-              min={0.1}
-              max={FARTHEST_CM}
-              value={within_cm()}
-              disabled={disabled()}
-              onInput={setWithin}
-            />
-          </Match>
-        </Switch>
+        <Show when={time() === 'near'}>
+          <PlaceFields
+            name="the place to reach"
+            value={near()}
+            disabled={disabled()}
+            picker={props.picker}
+            onValue={setNear}
+          />
+        </Show>
+        {numbers(time)}
       </Form>
       <ScriptList lab={lab} />
     </div>

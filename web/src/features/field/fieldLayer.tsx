@@ -25,22 +25,13 @@ export const FIELD_LAYER: MapLayer = {
       return plane && isShown() ? createFieldPicture(plane, palette()) : undefined;
     });
     return {
-      moving: () => {
-        const now = field();
-        return (
-          now &&
-          ((ctx, { view, palette, state }) => {
-            drawField(ctx, view, palette, [state.tool_m[0], state.tool_m[1]], now);
-          })
-        );
-      },
       underTool: createMemo(() => {
         const now = field();
         return (
           now && {
             halfSide_m: HALF_SIDE_M,
             draw: (ctx, view, palette) => {
-              drawField(ctx, view, palette, [0, 0], now);
+              drawField(ctx, view, palette, now);
             },
           }
         );

@@ -5,6 +5,7 @@ import type { Parameters, Plane, PlaneQuery } from '../../net/protocol.gen';
 import type { Vec2 } from '../../lab/geometry';
 import type { Arrow } from '../../plan/arrows';
 import { type Ramp, rampColour } from '../../plan/colourRamp';
+import { gridPixels } from '../../plan/pixels';
 
 /** A little more than the magnet's reach. */
 const REACH_M = 0.15;
@@ -38,19 +39,16 @@ function offsetOf(place: number): Vec2 {
   return [along(place % COUNT), along(Math.floor(place / COUNT))];
 }
 
-/** RGBA, one pixel per place, upper row first. Weak fields are transparent. */
+/** One pixel per place. Weak fields are transparent. */
 export function planePixels(plane: Plane, ramp: Ramp): Uint8ClampedArray<ArrayBuffer> {
-  const pixels = new Uint8ClampedArray(4 * COUNT * COUNT);
   const max_t = greatestField_t(plane);
-  plane.field_t.forEach((value_t, place) => {
-    const share = value_t / max_t;
-    const row = COUNT - 1 - Math.floor(place / COUNT);
+  return gridPixels(COUNT, COUNT, (place) => {
+    const share = (plane.field_t[place] ?? 0) / max_t;
     // Round: the corners of the square are too far away.
     const left = 1 - Math.hypot(...offsetOf(place)) / REACH_M;
     const alpha = Math.min(1, Math.max(0, 3 * left)) * Math.sqrt(share) * MAX_ALPHA;
-    pixels.set([...rampColour(ramp, share), alpha], 4 * (row * COUNT + (place % COUNT)));
+    return [...rampColour(ramp, share), alpha];
   });
-  return pixels;
 }
 
 /** Arrows of the pull on a bead, relative to the point below the magnet. The strongest pull has the longest arrow. */

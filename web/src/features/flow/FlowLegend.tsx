@@ -3,8 +3,8 @@
 import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';
 import type { FlowField, Parameters } from '../../net/protocol.gen';
+import { MapLegend } from '../../ui/MapLegend';
 import type { Flow } from './drawFlow';
-import '../../ui/legend.css';
 import './flow.css';
 
 /** Meaning of the dots. The literal law has no memory; the improved law follows a contour on one side. */
@@ -21,7 +21,7 @@ export function FlowLegend(props: {
   law: Parameters['attractor_law'];
 }): JSX.Element {
   return (
-    <div class="map-legend flow" role="group" aria-label="Arrows and dots">
+    <MapLegend class="flow" name="Arrows and dots" error={props.answer.error}>
       <Show when={props.hasGoal} fallback={<span>Set a goal to see the flow.</span>}>
         <span title="Longer arrows are faster. The flow uses what the camera has shown. Arrows are faint where it has shown nothing; these places count as free">
           <span class="flow-arrow" aria-hidden="true">
@@ -39,9 +39,6 @@ export function FlowLegend(props: {
           </Show>
         </span>
       </Show>
-      <span role="alert">
-        <Show when={props.answer.error}>{(text) => <span class="refusal">{text()}</span>}</Show>
-      </span>
-    </div>
+    </MapLegend>
   );
 }

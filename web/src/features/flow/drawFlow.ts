@@ -1,12 +1,14 @@
 // Draws the attractor flow: one arrow per place, and a dot where the flow ends before the goal.
 
-import type { Palette } from '../../ui/palette';
 import type { FlowField, SeenMessage } from '../../net/protocol.gen';
-import { pxFromWorld, type View } from '../../plan/transform';
+import type { BasePicture } from '../../plan/layer';
+import { circle } from '../../plan/shapes';
+import { pxFromWorld } from '../../plan/transform';
 import { type Arrow, arrowPath } from '../../plan/arrows';
 import { flowArrows, flowTraps } from './flow';
 import type { Vec2 } from '../../lab/geometry';
 import { seenAt } from '../../lab/obstacleMap';
+import type { Ctx } from '../../plan/sheet';
 
 const TRAP_PX = 4.5;
 const UNSEEN_ALPHA = 0.5;
@@ -21,12 +23,7 @@ export function createFlow(field: FlowField, goal_m: Vec2, seen: SeenMessage): F
   return { arrows: flowArrows(field, isSeen), traps: flowTraps(field, goal_m, isSeen) };
 }
 
-export function drawFlow(
-  ctx: CanvasRenderingContext2D,
-  view: View,
-  palette: Palette,
-  flow: Flow,
-): void {
+export function drawFlow(ctx: Ctx, { view, palette }: BasePicture, flow: Flow): void {
   ctx.strokeStyle = palette.flow;
   ctx.lineWidth = 1.1;
   for (const isSeen of [true, false]) {
@@ -39,8 +36,7 @@ export function drawFlow(
   ctx.strokeStyle = palette.floor;
   ctx.lineWidth = 1.5;
   for (const trap of flow.traps) {
-    ctx.beginPath();
-    ctx.arc(...pxFromWorld(view, trap), TRAP_PX, 0, 2 * Math.PI);
+    circle(ctx, pxFromWorld(view, trap), TRAP_PX);
     ctx.fill();
     ctx.stroke();
   }

@@ -4,7 +4,7 @@ import { Show, createMemo, untrack } from 'solid-js';
 import type { FlowField, FlowQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
 import { sessionPath } from '../../net/session';
-import type { LayerContext, MapLayer } from '../../plan/layer';
+import { drawn, type LayerContext, type MapLayer } from '../../plan/layer';
 import { FlowLegend } from './FlowLegend';
 import { createFlow, drawFlow } from './drawFlow';
 import { flowKey, flowQuery } from './flow';
@@ -46,15 +46,7 @@ export const FLOW_LAYER: MapLayer = {
     });
     const flow = () => (asks() && lab.obstacleMap() ? answered() : undefined);
     return {
-      aboveWalls: () => () => {
-        const now = flow();
-        return (
-          now &&
-          ((ctx, picture) => {
-            drawFlow(ctx, picture.view, picture.palette, now);
-          })
-        );
-      },
+      aboveWalls: drawn(flow, drawFlow),
       legend: () => (
         <Show when={lab.scene()}>
           {(scene) => (

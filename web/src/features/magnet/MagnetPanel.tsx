@@ -27,12 +27,22 @@ import type {
 } from '../../net/protocol.gen';
 import type { Theme } from '../../ui/theme';
 import { CurvePlot } from '../../ui/CurvePlot';
-import type { CurveContext } from '../../ui/curve';
+import type { CurveContext, Rule } from '../../ui/curve';
 import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
 import type { PanelProps } from '../../lab/panel';
 import type { Session, Trial } from '../../lab/slices';
 import './magnet.css';
+
+const MM = { scale: 1000, dashed: false };
+
+/** A line across the plot at a place in metres, if it is known. */
+function upright(
+  at_m: number | undefined,
+  { scale, ...look }: Omit<Rule, 'axis' | 'at'> & { scale: number },
+): Rule[] {
+  return at_m === undefined ? [] : [{ ...look, axis: 'x', at: scale * at_m }];
+}
 
 function Magnet(props: {
   lab: Session & Trial;
@@ -53,22 +63,18 @@ function Magnet(props: {
     return error_m === undefined ? undefined : Math.round(1000 * error_m) / 1000;
   });
   // No request without a connection, so that it is sent again on the next connection.
-  const whenLive =
-    <Q,>(question: (parameters: Parameters) => Q) =>
-    (): Q | undefined =>
-      lab.connection().kind === 'live' ? question(props.parameters) : undefined;
-  const pull = createAnswer<PullQuery, PullCurve>(
-    '/api/magnetics/pull',
-    whenLive((parameters) => pullQuery(parameters, direction_rad())),
+  const ask = <Q, A>(path: string, question: (parameters: Parameters) => Q) =>
+    createAnswer<Q, A>(path, () =>
+      lab.connection().kind === 'live' ? question(props.parameters) : undefined,
+    );
+  const pull = ask<PullQuery, PullCurve>('/api/magnetics/pull', (parameters) =>
+    pullQuery(parameters, direction_rad()),
   );
-  const reach = createAnswer<ReachQuery, ReachCurve>(
-    '/api/magnetics/reach',
-    whenLive((parameters) => reachQuery(parameters, direction_rad(), 'all')),
-  );
-  const here = createAnswer<ReachQuery, ReachCurve>(
-    '/api/magnetics/reach',
-    whenLive((parameters) => reachQuery(parameters, direction_rad(), 'here')),
-  );
+  const reachAt = (heights: 'all' | 'here') =>
+    ask<ReachQuery, ReachCurve>('/api/magnetics/reach', (parameters) =>
+      reachQuery(parameters, direction_rad(), heights),
+    );
+  const [reach, here] = [reachAt('all'), reachAt('here')];
   const error = (): string | undefined => pull().error ?? reach().error ?? here().error;
   const hint = (): string =>
     props.parameters.tool_orientation === 'paper' && lab.scene()?.positioner === 'arm'
@@ -84,7 +90,6 @@ function Magnet(props: {
       { label: 'pull', color: 'tool' },
       { label: 'friction', color: 'bead' },
     ],
-    bands: [],
     xRange: () => [0, 100 * shownOffset(pull().data?.capture_m ?? null)],
     yRange: (max) => [0, Math.max(1.15, 1.05 * max)],
     xText: (value) => (value === 0 ? '' : `${value} cm`),
@@ -93,15 +98,10 @@ function Magnet(props: {
       const capture_m = pull().data?.capture_m;
       return capture_m ? [{ from: 100 * capture_m[0], to: 100 * capture_m[1], color: 'tool' }] : [];
     },
-    rules: createMemo(() => {
-      const now_m = distance_m();
-      return [
-        { axis: 'y', at: 1, label: 'lift-off', color: 'danger', dashed: true },
-        ...(now_m === undefined
-          ? []
-          : [{ axis: 'x', at: 100 * now_m, label: 'bead', color: 'bead', dashed: false } as const]),
-      ] as const;
-    }),
+    rules: createMemo((): Rule[] => [
+      { axis: 'y', at: 1, label: 'lift-off', color: 'danger', dashed: true },
+      ...upright(distance_m(), { scale: 100, label: 'bead', color: 'bead', dashed: false }),
+    ]),
     onCursor: (index) => {
       const curve = pull().data;
       setPointed(index !== undefined && curve ? pullWords(curve, friction(), index) : undefined);
@@ -132,26 +132,13 @@ function Magnet(props: {
     yText: axisLabel,
     shades: () => {
       const end_m = liftOff_m();
-      return end_m === undefined
-        ? []
-        : [
-            {
-              from: 1000 * HEIGHTS_M[0],
-              to: 1000 * Math.max(HEIGHTS_M[0], end_m),
-              color: 'danger',
-            },
-          ];
+      const [from, to] = [1000 * HEIGHTS_M[0], 1000 * (end_m ?? 0)];
+      return to > from ? [{ from, to, color: 'danger' }] : [];
     },
-    rules: createMemo(() => {
-      const end_m = liftOff_m();
-      const now = 1000 * props.parameters.tool_height_m;
-      return [
-        { axis: 'x', at: now, label: 'now', color: 'text', dashed: false },
-        ...(end_m === undefined
-          ? []
-          : [{ axis: 'x', at: 1000 * end_m, label: '', color: 'danger', dashed: true } as const]),
-      ] as const;
-    }),
+    rules: createMemo(() => [
+      ...upright(props.parameters.tool_height_m, { ...MM, label: 'now', color: 'text' }),
+      ...upright(liftOff_m(), { ...MM, label: '', color: 'danger', dashed: true }),
+    ]),
     onCursor: (index) => {
       const curve = reach().data;
       setPointed(index !== undefined && curve ? reachWords(curve, index) : undefined);

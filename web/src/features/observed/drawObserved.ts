@@ -2,43 +2,44 @@
 
 import type { PixelBlock } from '../../lab/homography';
 import type { Palette } from '../../ui/palette';
-import type { BlocksLayer, SeenMessage } from '../../net/protocol.gen';
-import { pxFromWorld, type View } from '../../plan/transform';
-import { seenPixels } from './observed';
+import { seenCells } from '../../lab/obstacleMap';
+import type { BlocksLayer, OverlayMessage, Rect, SeenMessage } from '../../net/protocol.gen';
 import { rgb } from '../../plan/colourRamp';
-
-type Ctx = CanvasRenderingContext2D;
+import type { BasePicture } from '../../plan/layer';
+import { gridPixels, imageOf, type Rgba } from '../../plan/pixels';
+import { pxFromWorld, pxRect, type View } from '../../plan/transform';
+import type { Ctx } from '../../plan/sheet';
 
 const UNKNOWN_ALPHA = 130;
 const OBSTACLE_ALPHA = 120;
 
 export interface Seen {
-  readonly message: SeenMessage;
-  /** A pixel a cell. */
+  readonly workspace: Rect;
   readonly image: HTMLCanvasElement;
 }
 
+/** One pixel per cell. */
+export function seenPixels(
+  seen: SeenMessage,
+  colors: readonly [unknown: Rgba, free: Rgba, obstacle: Rgba],
+): Uint8ClampedArray<ArrayBuffer> {
+  const cells = seenCells(seen);
+  return gridPixels(seen.columns, seen.rows, (cell) => colors[cells[cell] as 0 | 1 | 2]);
+}
+
 export function createSeen(message: SeenMessage, palette: Palette): Seen {
-  const image = document.createElement('canvas');
-  image.width = message.columns;
-  image.height = message.rows;
   const pixels = seenPixels(message, [
     [...rgb(palette.unseen), UNKNOWN_ALPHA],
     [0, 0, 0, 0],
     [...rgb(palette.sensed), OBSTACLE_ALPHA],
   ]);
-  image.getContext('2d')?.putImageData(new ImageData(pixels, message.columns, message.rows), 0, 0);
-  return { message, image };
+  return { workspace: message.workspace, image: imageOf(pixels, message.columns) };
 }
 
-export function drawSeen(ctx: Ctx, view: View, seen: Seen): void {
-  const { workspace } = seen.message;
-  const [left, top] = pxFromWorld(view, [workspace.x_min_m, workspace.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [workspace.x_max_m, workspace.y_min_m]);
+export function drawSeen(ctx: Ctx, { view }: BasePicture, { workspace, image }: Seen): void {
   // No smoothing: cells have sharp edges.
   ctx.imageSmoothingEnabled = false;
-  ctx.drawImage(seen.image, left, top, right - left, bottom - top);
-  ctx.imageSmoothingEnabled = true;
+  ctx.drawImage(image, ...pxRect(view, workspace));
 }
 
 function blockPath(view: View, layer: BlocksLayer, blocks: readonly PixelBlock[]): Path2D {
@@ -52,7 +53,11 @@ function blockPath(view: View, layer: BlocksLayer, blocks: readonly PixelBlock[]
 }
 
 /** The quadtree: dark blocks filled, all blocks outlined. */
-export function drawBlocks(ctx: Ctx, view: View, palette: Palette, layer: BlocksLayer): void {
+export function drawBlocks(
+  ctx: Ctx,
+  { view, palette }: BasePicture,
+  { blocks: layer }: OverlayMessage,
+): void {
   const dark = blockPath(view, layer, layer.dark);
   ctx.lineWidth = 0.75;
   ctx.globalAlpha = 0.5;
@@ -66,7 +71,11 @@ export function drawBlocks(ctx: Ctx, view: View, palette: Palette, layer: Blocks
   ctx.globalAlpha = 1;
 }
 
-export function drawRectangles(ctx: Ctx, view: View, palette: Palette, layer: BlocksLayer): void {
+export function drawRectangles(
+  ctx: Ctx,
+  { view, palette }: BasePicture,
+  { blocks: layer }: OverlayMessage,
+): void {
   const path = blockPath(view, layer, layer.rectangles);
   ctx.fillStyle = palette['error-x'];
   ctx.strokeStyle = palette['error-x'];

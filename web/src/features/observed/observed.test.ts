@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { SeenMessage } from '../../net/protocol.gen';
-import { type Rgba, seenPixels } from './observed';
+import type { Rgba } from '../../plan/pixels';
+import { seenPixels } from './drawObserved';
 
 const SEEN: SeenMessage = {
   number: 1,

@@ -1,14 +1,7 @@
 // The events on the timeline. Each is a button that opens the event's story.
 
-import {
-  Index,
-  createEffect,
-  createMemo,
-  createSignal,
-  onCleanup,
-  onMount,
-  type JSX,
-} from 'solid-js';
+import { Index, createEffect, createMemo, createSignal, onMount, type JSX } from 'solid-js';
+import { onSize } from '../../ui/size';
 import { Limiter } from '../../net/limiter';
 import { clusters, markTitle } from './eventMarks';
 import type { EventMessage } from '../../net/protocol.gen';
@@ -29,13 +22,7 @@ export function EventMarks(props: { lab: Events; oldest: number; newest: number 
   let bar!: HTMLDivElement;
   const [width_px, setWidth] = createSignal(0);
   onMount(() => {
-    const observer = new ResizeObserver(() => {
-      setWidth(bar.clientWidth);
-    });
-    observer.observe(bar);
-    onCleanup(() => {
-      observer.disconnect();
-    });
+    onSize(bar, ({ width }) => setWidth(width));
   });
   const [line, setLine] = createSignal({ oldest: 0, newest: 0, marks: lab.marks() });
   const layouts = new Limiter(1000 / LAYOUTS_PER_S, setLine);

@@ -1,14 +1,16 @@
 // The locus: the part of the figure in the plane, with its caption.
 
-import { createEffect, createMemo, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
+import { createEffect, createMemo, createSignal, onMount, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
+import { onSize } from '../../ui/size';
 import type { Palette } from '../../ui/palette';
+import { drawBorder, drawFloor, wallPath } from '../../plan/drawMap';
+import { contextOf } from '../../plan/sheet';
 import { fitView, type View } from '../../plan/transform';
-import { wallPath } from '../../plan/drawMap';
 import { drawLocus, placesAt, sampleAt } from './drawLocus';
 import type { Figure } from './figure';
 import { LOCUS_LETTER } from './parts';
-import { nearestIndex } from './sample';
+import { nearestIndex, type Sample } from './sample';
 import { TERMS } from '../../lab/terms';
 import type { Vec2 } from '../../lab/geometry';
 import { shownWalls } from '../../lab/sight';
@@ -22,13 +24,12 @@ const REACH_PX = 24;
 export function LocusPlot(props: {
   lab: Trial & ByHand;
   figure: Figure;
+  sample: Sample | undefined;
   palette: () => Palette;
-  onDraw: (draw: () => void) => void;
 }): JSX.Element {
   const { lab, figure } = props;
   let canvas!: HTMLCanvasElement;
   const [size, setSize] = createSignal({ width: 0, height: 0 });
-  const [words, setWords] = createSignal('');
   const view = createMemo<View | undefined>(() => {
     const scene = lab.scene();
     const { width, height } = size();
@@ -38,59 +39,34 @@ export function LocusPlot(props: {
     const now = view();
     return now && wallPath(shownWalls(lab), now);
   });
-
-  const draw = (): void => {
-    const now = view();
-    const scene = lab.scene();
-    const wallsNow = walls();
-    const sample = figure.sample();
-    const ctx = canvas.getContext('2d');
-    if (!now || !scene || !wallsNow || !sample || !ctx) return;
-    const { width, height } = size();
-    const ratio = window.devicePixelRatio;
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    ctx.scale(ratio, ratio);
-    const palette = props.palette();
-    const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
-    const left = now.originX + x_min_m * now.pxPerM;
-    const top = now.originY - y_max_m * now.pxPerM;
-    ctx.fillStyle = palette.floor;
-    ctx.fillRect(left, top, (x_max_m - x_min_m) * now.pxPerM, (y_max_m - y_min_m) * now.pxPerM);
-    const goal_m = lab.state()?.goal_m;
-    const marked = nearestIndex(sample.columns.sim_time_s, figure.pointed_s() ?? sample.at_s);
-    drawLocus(ctx, {
-      view: now,
-      palette,
-      walls: wallsNow,
-      sample,
-      goal_m: goal_m ? [goal_m[0], goal_m[1]] : undefined,
-      marked,
-    });
-    ctx.strokeStyle = palette['wall-edge'];
-    ctx.lineWidth = 1;
-    ctx.strokeRect(left, top, (x_max_m - x_min_m) * now.pxPerM, (y_max_m - y_min_m) * now.pxPerM);
-    if (marked === undefined) return;
-    const { tool, bead } = placesAt(sample, marked);
+  const marked = createMemo(() => {
+    const { sample } = props;
+    return sample && nearestIndex(sample.columns.sim_time_s, figure.pointed_s() ?? sample.at_s);
+  });
+  const words = (): string => {
+    const [{ sample }, index] = [props, marked()];
+    if (!sample || index === undefined) return '';
+    const { tool, bead } = placesAt(sample, index);
     const place = ([x, y]: Vec2): string => `(${fixed(x, 2)}, ${fixed(y, 2)}) m`;
-    setWords(`Tool ${place(tool)}, bead ${place(bead)}`);
+    return `Tool ${place(tool)}, bead ${place(bead)}`;
   };
 
   onMount(() => {
-    const observer = new ResizeObserver(() => {
-      setSize({ width: canvas.clientWidth, height: canvas.clientHeight });
+    onSize(canvas, setSize);
+    createEffect(() => {
+      const [now, workspace, outlines] = [view(), lab.scene()?.workspace, walls()];
+      const [{ sample }, palette] = [props, props.palette()];
+      const ctx = contextOf(canvas, size());
+      if (!now || !workspace || !outlines || !sample || !ctx) return;
+      drawFloor(ctx, workspace, now, palette);
+      const goal_m = lab.goal();
+      drawLocus(ctx, { view: now, palette, walls: outlines, sample, goal_m, marked: marked() });
+      drawBorder(ctx, workspace, now, palette);
     });
-    observer.observe(canvas);
-    onCleanup(() => {
-      observer.disconnect();
-    });
-    props.onDraw(draw);
-    createEffect(on([view, walls, props.palette, figure.pointed_s], draw));
   });
 
   const point = (event: PointerEvent): void => {
-    const now = view();
-    const sample = figure.sample();
+    const [now, { sample }] = [view(), props];
     if (!now || !sample) return;
     const index = sampleAt(sample, now, [event.offsetX, event.offsetY], REACH_PX);
     figure.point(index === undefined ? undefined : sample.columns.sim_time_s[index]);

@@ -1,22 +1,23 @@
 // The paper's figure, live: positions and tracking errors over time, and the path in the plane.
 
-import { For, createEffect, on, onCleanup, type JSX } from 'solid-js';
+import { For, createEffect, createSignal, on, onCleanup, type JSX } from 'solid-js';
 import { Portal } from 'solid-js/web';
 import { download, pngOf } from '../../ui/download';
 import { LocusPlot } from './LocusPlot';
 import { TimePlot } from './TimePlot';
 import { createFigure, type Figure } from './figure';
 import { FIGURE_PX, figureSvg } from './figureSvg';
-import { PARTS } from './parts';
+import { LOCUS_LETTER, PARTS } from './parts';
 import { Rotation } from './rotation';
-import { csvOf, type WindowChoice, WINDOWS } from './sample';
-import type { PlotContext } from './timePlot';
+import { csvOf, type Sample, type WindowChoice, WINDOWS } from './sample';
 import { clock } from '../../ui/format';
 import { createPalette, type Palette } from '../../ui/palette';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import { shownWalls } from '../../lab/sight';
 import type { ByHand, Events, Notices, Trial } from '../../lab/slices';
 import './plots.css';
+
+const FILES = ['CSV', 'PNG', 'SVG'] as const;
 
 /** Time window and files, in the tab bar. */
 function Tools(props: {
@@ -25,47 +26,32 @@ function Tools(props: {
   palette: () => Palette;
 }): JSX.Element {
   const { lab, figure } = props;
-  /** File name, or undefined while there is no data to save. */
-  const name = (): string | undefined => {
-    const scene = lab.scene();
-    const state = lab.state();
-    return scene && state && `ferry-${scene.map}-seed${scene.seed}-tick${state.tick}`;
-  };
-  const svg = (): string | undefined => {
-    figure.renew();
-    const sample = figure.sample();
-    const scene = lab.scene();
-    const state = lab.state();
-    if (!sample || !scene || !state) return undefined;
-    const { goal_m } = state;
-    return figureSvg({
+  const save = async (kind: (typeof FILES)[number]): Promise<void> => {
+    const [sample, scene, state] = [figure.take(), lab.scene(), lab.state()];
+    if (!sample || !scene || !state) return;
+    const put = (content: BlobPart, type: string): void => {
+      const name = `ferry-${scene.map}-seed${scene.seed}-tick${state.tick}`;
+      download(`${name}.${kind.toLowerCase()}`, new Blob([content], { type }));
+    };
+    if (kind === 'CSV') {
+      put(csvOf(lab.history, sample), 'text/csv');
+      return;
+    }
+    const svg = figureSvg({
       title: `Ferry: map ${scene.map}, ${state.controller}, seed ${scene.seed}, ${clock(sample.from_s)} to ${clock(sample.to_s)}`,
       palette: props.palette(),
       sample,
       threshold_m: scene.parameters.threshold_m,
       workspace: scene.workspace,
       walls: shownWalls(lab),
-      goal_m: goal_m ? [goal_m[0], goal_m[1]] : undefined,
+      goal_m: lab.goal(),
     });
-  };
-  const saveCsv = (): void => {
-    figure.renew();
-    const sample = figure.sample();
-    const file = name();
-    if (!sample || file === undefined) return;
-    download(`${file}.csv`, new Blob([csvOf(lab.history, sample)], { type: 'text/csv' }));
-  };
-  const saveSvg = (): void => {
-    const drawing = svg();
-    if (drawing === undefined) return;
-    download(`${name() ?? 'ferry'}.svg`, new Blob([drawing], { type: 'image/svg+xml' }));
-  };
-  const savePng = async (): Promise<void> => {
-    const drawing = svg();
-    const file = name();
-    if (drawing === undefined || file === undefined) return;
+    if (kind === 'SVG') {
+      put(svg, 'image/svg+xml');
+      return;
+    }
     try {
-      download(`${file}.png`, await pngOf(drawing, FIGURE_PX));
+      put(await pngOf(svg, FIGURE_PX), 'image/png');
     } catch {
       lab.notify('playback', 'This browser could not draw the figure as a PNG.');
     }
@@ -90,15 +76,18 @@ function Tools(props: {
         </select>
       </label>
       <span class="unit">Save</span>
-      <button type="button" class="small" aria-label="Save CSV" onClick={saveCsv}>
-        CSV
-      </button>
-      <button type="button" class="small" aria-label="Save PNG" onClick={() => void savePng()}>
-        PNG
-      </button>
-      <button type="button" class="small" aria-label="Save SVG" onClick={saveSvg}>
-        SVG
-      </button>
+      <For each={FILES}>
+        {(kind) => (
+          <button
+            type="button"
+            class="small"
+            aria-label={`Save ${kind}`}
+            onClick={() => void save(kind)}
+          >
+            {kind}
+          </button>
+        )}
+      </For>
     </div>
   );
 }
@@ -107,18 +96,14 @@ function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.E
   const { lab } = props;
   const palette = createPalette(() => props.theme());
   const figure = createFigure(lab);
-  const context: PlotContext = {
-    palette,
-    sample: figure.sample,
-    threshold_m: () => lab.scene()?.parameters.threshold_m,
-  };
-  const draws: (() => void)[] = [];
+  let sample: Sample | undefined;
+  const samples = [...PARTS, LOCUS_LETTER].map(() => createSignal<Sample>());
   const rotation = new Rotation(
-    PARTS.length + 1,
+    samples.length,
     () => {
-      figure.renew();
+      sample = figure.take();
     },
-    (part) => draws[part]?.(),
+    (part) => samples[part]?.[1](sample),
     (work) => requestAnimationFrame(work),
   );
   createEffect(
@@ -140,22 +125,14 @@ function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.E
             <TimePlot
               part={part}
               figure={figure}
-              context={context}
+              sample={samples[index()]?.[0]()}
+              palette={palette}
+              threshold_m={lab.scene()?.parameters.threshold_m}
               theme={props.theme}
-              onDraw={(draw) => {
-                draws[index()] = draw;
-              }}
             />
           )}
         </For>
-        <LocusPlot
-          lab={lab}
-          figure={figure}
-          palette={palette}
-          onDraw={(draw) => {
-            draws[PARTS.length] = draw;
-          }}
-        />
+        <LocusPlot lab={lab} figure={figure} sample={samples.at(-1)?.[0]()} palette={palette} />
       </div>
     </>
   );

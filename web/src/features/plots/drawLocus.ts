@@ -2,10 +2,12 @@
 
 import type { Palette } from '../../ui/palette';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { GOAL_RADIUS_M } from '../../net/protocol.gen';
 import type { Sample } from './sample';
 import { distance, type Vec2 } from '../../lab/geometry';
+import { drawGoal } from '../../plan/drawMoving';
+import { circle } from '../../plan/shapes';
 import { drawTrail } from '../../plan/drawTrail';
+import type { Ctx } from '../../plan/sheet';
 
 const DOT_PX = 3;
 const STRUCK_PX = 3.5;
@@ -21,11 +23,8 @@ export interface LocusPicture {
   readonly marked: number | undefined;
 }
 
-type Ctx = CanvasRenderingContext2D;
-
 function dot(ctx: Ctx, color: string, edge: string, at: Vec2): void {
-  ctx.beginPath();
-  ctx.arc(at[0], at[1], DOT_PX, 0, 2 * Math.PI);
+  circle(ctx, at, DOT_PX);
   ctx.fillStyle = color;
   ctx.fill();
   ctx.strokeStyle = edge;
@@ -50,14 +49,7 @@ export function drawLocus(ctx: Ctx, picture: LocusPicture): void {
   ctx.globalAlpha = 1;
   drawTrail(ctx, view, palette.tool, columns.tool_x_m, columns.tool_y_m);
   drawTrail(ctx, view, palette.bead, columns.bead_x_m, columns.bead_y_m);
-  if (picture.goal_m) {
-    const [x, y] = pxFromWorld(view, picture.goal_m);
-    ctx.beginPath();
-    ctx.arc(x, y, Math.max(DOT_PX, GOAL_RADIUS_M * view.pxPerM), 0, 2 * Math.PI);
-    ctx.strokeStyle = palette.goal;
-    ctx.lineWidth = 1.5;
-    ctx.stroke();
-  }
+  if (picture.goal_m) drawGoal(ctx, view, palette, picture.goal_m);
   ctx.strokeStyle = palette.hand;
   ctx.lineWidth = 1.75;
   ctx.beginPath();

@@ -4,7 +4,7 @@ import { fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
 import { fitView, pxFromWorld } from '../../plan/transform';
-import { LOCUS_LETTER, type Part, partRange, PARTS } from './parts';
+import { linesOf, LOCUS_LETTER, type Part, partRange, PARTS, rulesOf } from './parts';
 import type { Sample } from './sample';
 import type { Vec2 } from '../../lab/geometry';
 
@@ -83,10 +83,8 @@ function caption(
 function timePart(part: Part, facts: FigureFacts): string {
   const { sample, palette, threshold_m } = facts;
   const times = sample.columns.sim_time_s;
-  const values = part.lines.map(({ column }) =>
-    [...sample.columns[column]].map((value) => value * part.scale),
-  );
-  const all = values.flat();
+  const values = linesOf(part, sample);
+  const all = values.flatMap((line) => [...line]);
   const [low, high] = partRange(
     part,
     all.reduce((min, value) => Math.min(min, value), Infinity),
@@ -127,16 +125,22 @@ function timePart(part: Part, facts: FigureFacts): string {
       ),
     );
   }
-  for (const { time_s } of sample.struck) {
-    out.push(line([x(time_s), INSET.top], [x(time_s), bottom], palette.hand));
-  }
-  if (part.threshold) {
-    const at = y(threshold_m * part.scale);
-    out.push(line([INSET.left, at], [right, at], palette.danger, 'stroke-dasharray="6 4"'));
-    out.push(text([INSET.left + 4, at - 3], 'T', palette.danger));
+  for (const rule of rulesOf(part, sample, threshold_m)) {
+    const color = palette[rule.color];
+    const dashes = rule.dashed ? 'stroke-dasharray="6 4"' : '';
+    if (rule.axis === 'x') {
+      out.push(line([x(rule.at), INSET.top], [x(rule.at), bottom], color, dashes));
+    } else {
+      const at = y(rule.at);
+      out.push(line([INSET.left, at], [right, at], color, dashes));
+      out.push(text([INSET.left + 4, at - 3], rule.label, color));
+    }
   }
   part.lines.forEach(({ color }, index) => {
-    const points = (values[index] ?? []).map((value, k): Vec2 => [x(times[k] ?? 0), y(value)]);
+    const points = Array.from(values[index] ?? [], (value, k): Vec2 => [
+      x(times[k] ?? 0),
+      y(value),
+    ]);
     out.push(polyline(points, palette[color]));
   });
   const keys = part.lines.map(({ label, color }) => ({ label, color: palette[color] }));

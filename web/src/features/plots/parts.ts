@@ -1,7 +1,9 @@
 // The parts of the paper's figure: five over time, and the locus in the plane.
 
 import type { Column } from '../../lab/history';
+import type { Rule } from '../../ui/curve';
 import type { Palette } from '../../ui/palette';
+import type { Sample } from './sample';
 
 export interface Line {
   readonly column: Column;
@@ -92,4 +94,37 @@ export function partRange(
 ): [number, number] {
   if (!part.threshold) return axisRange(min, max, part.grain);
   return axisRange(0, Math.max(max, (threshold_m ?? 0) * part.scale * 1.25), part.grain);
+}
+
+/** Values of each line, in shown units. */
+export function linesOf(part: Part, sample: Sample | undefined): Float64Array[] {
+  return part.lines.map(
+    ({ column }) =>
+      sample?.columns[column].map((value) => value * part.scale) ?? new Float64Array(),
+  );
+}
+
+/** The present time is marked only if it is at least this far before the newest sample. */
+const BEHIND_S = 0.02;
+
+/** Disturbances, the present time after a rewind, and the threshold. */
+export function rulesOf(
+  part: Part,
+  sample: Sample | undefined,
+  threshold_m: number | undefined,
+): Rule[] {
+  const rule = { axis: 'x', label: '', dashed: false } as const;
+  const rules: Rule[] = (sample?.struck ?? []).map(({ time_s }) => ({
+    ...rule,
+    at: time_s,
+    color: 'hand',
+  }));
+  if (sample && sample.at_s < (sample.columns.sim_time_s.at(-1) ?? 0) - BEHIND_S) {
+    rules.push({ ...rule, at: sample.at_s, color: 'focus', isStrong: true });
+  }
+  if (part.threshold && threshold_m !== undefined) {
+    const at = threshold_m * part.scale;
+    rules.push({ axis: 'y', at, label: 'T', color: 'danger', dashed: true });
+  }
+  return rules;
 }

@@ -1,6 +1,6 @@
 // The data of the figure: a window of the history, thinned to what a screen can show. Pure.
 
-import { type Column, COLUMNS, type History } from '../../lab/history';
+import { type Column, COLUMNS, columnsOf, type History, type Samples } from '../../lab/history';
 import type { EventMessage } from '../../net/protocol.gen';
 
 export const WINDOWS = [
@@ -28,7 +28,7 @@ export interface Sample {
   readonly to_s: number;
   /** The present time. It is before the newest sample after a rewind. */
   readonly at_s: number;
-  readonly columns: Readonly<Record<Column, Float64Array>>;
+  readonly columns: Samples;
   /** When sub-controller 1 was active. */
   readonly approaches: readonly (readonly [from_s: number, to_s: number])[];
   readonly struck: readonly Struck[];
@@ -96,14 +96,6 @@ export function spansOf(
   return spans;
 }
 
-/** The window's samples in all columns, without thinning; valid until the next push. */
-function whole(history: History, from_s: number, to_s: number): Record<Column, Float64Array> {
-  const views = history.window(from_s, to_s, COLUMNS);
-  return Object.fromEntries(
-    COLUMNS.map((name, index) => [name, views[index] ?? new Float64Array()]),
-  ) as Record<Column, Float64Array>;
-}
-
 export function takeSample(
   history: History,
   choice: WindowChoice,
@@ -111,22 +103,18 @@ export function takeSample(
   marks: readonly EventMessage[],
 ): Sample {
   const { from_s, to_s } = shownWindow(choice, history.newest_s, at_s);
-  const all = whole(history, from_s, to_s);
+  const all = history.window(from_s, to_s);
   const times = all.sim_time_s;
   const indices = thinnedIndices(
     times.length,
     PEAKS.map((name) => all[name]),
     INTERVALS,
   );
-  const thinned = COLUMNS.map((name) => {
-    const column = all[name];
-    return [name, Float64Array.from(indices, (index) => column[index] ?? Number.NaN)] as const;
-  });
   return {
     from_s,
     to_s,
     at_s,
-    columns: Object.fromEntries(thinned) as Record<Column, Float64Array>,
+    columns: columnsOf((name) => Float64Array.from(indices, (index) => all[name][index] ?? NaN)),
     approaches: spansOf(times, all.mode, 1),
     struck: marks
       .filter(
@@ -155,7 +143,7 @@ export function nearestIndex(times: Float64Array, time_s: number): number | unde
 
 /** The window as CSV with every sample, in metres and seconds. `disturbed` counts disturbances since the previous line. */
 export function csvOf(history: History, { from_s, to_s, struck }: Sample): string {
-  const all = whole(history, from_s, to_s);
+  const all = history.window(from_s, to_s);
   const lines = [[...COLUMNS, 'disturbed'].join(',')];
   let next = 0;
   all.sim_time_s.forEach((time_s, index) => {

@@ -121,7 +121,7 @@ export const RECOVERY_LAYER: MapLayer = {
       });
     });
     return {
-      belowWalls: () => () => {
+      belowWalls: () => {
         const now = squares();
         if (now.length === 0) return undefined;
         return (ctx, { view, palette }) => {

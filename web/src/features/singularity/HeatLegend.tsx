@@ -3,8 +3,8 @@
 import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';
 import type { WorkspaceMap } from '../../net/protocol.gen';
+import { MapLegend, Ramp } from '../../ui/MapLegend';
 import { heatRange, heatWords, refusedWords } from './heat';
-import '../../ui/legend.css';
 import './singularity.css';
 
 function Values(props: { map: WorkspaceMap }): JSX.Element {
@@ -13,13 +13,7 @@ function Values(props: { map: WorkspaceMap }): JSX.Element {
       <Show when={heatRange(props.map)}>
         {(range) => (
           <>
-            <span class="number" data-testid="heat-least">
-              {heatWords(range()[0])}
-            </span>
-            <span class="heat-ramp" aria-hidden="true" />
-            <span class="number" data-testid="heat-greatest">
-              {heatWords(range()[1])}
-            </span>
+            <Ramp of="heat" least={heatWords(range()[0])} greatest={heatWords(range()[1])} />
             <span>·10⁻³ m³</span>
           </>
         )}
@@ -34,14 +28,11 @@ function Values(props: { map: WorkspaceMap }): JSX.Element {
 
 export function HeatLegend(props: { answer: Answer<WorkspaceMap> }): JSX.Element {
   return (
-    <div class="map-legend" role="group" aria-label="Manipulability">
+    <MapLegend name="Manipulability" error={props.answer.error}>
       <span title="|det J| of the arm over the table; 0 is a singularity">Manipulability</span>
       <Show when={props.answer.data} fallback={props.answer.error ? undefined : 'computing…'}>
         {(map) => <Values map={map()} />}
       </Show>
-      <span role="alert">
-        <Show when={props.answer.error}>{(text) => <span class="refusal">{text()}</span>}</Show>
-      </span>
-    </div>
+    </MapLegend>
   );
 }

@@ -2,13 +2,14 @@
 
 import type { Palette } from '../../ui/palette';
 import type { WorkspaceMap } from '../../net/protocol.gen';
-import { pxFromWorld, type View } from '../../plan/transform';
+import type { BasePicture } from '../../plan/layer';
+import { imageOf } from '../../plan/pixels';
+import { pxFromWorld } from '../../plan/transform';
 import { heatRamp } from '../../plan/colourRamp';
 import { heatPixels, refusedRuns, type Run } from './heat';
+import type { Ctx } from '../../plan/sheet';
 
 const HATCH_PX = 7;
-
-type Ctx = CanvasRenderingContext2D;
 
 export interface Heat {
   readonly map: WorkspaceMap;
@@ -18,11 +19,7 @@ export interface Heat {
 }
 
 export function createHeat(map: WorkspaceMap, palette: Palette): Heat {
-  const image = document.createElement('canvas');
-  image.width = map.columns;
-  image.height = map.rows;
-  const pixels = new ImageData(heatPixels(map, heatRamp(palette)), map.columns, map.rows);
-  image.getContext('2d')?.putImageData(pixels, 0, 0);
+  const image = imageOf(heatPixels(map, heatRamp(palette)), map.columns);
   return { map, image, refused: refusedRuns(map) };
 }
 
@@ -36,7 +33,7 @@ function hatch(ctx: Ctx, left: number, top: number, width: number, height: numbe
   ctx.stroke();
 }
 
-export function drawHeat(ctx: Ctx, view: View, palette: Palette, heat: Heat): void {
+export function drawHeat(ctx: Ctx, { view, palette }: BasePicture, heat: Heat): void {
   const { columns, rows, origin_m, cell_m } = heat.map;
   const side = cell_m * view.pxPerM;
   const [left, bottom] = pxFromWorld(view, origin_m);

@@ -8,7 +8,8 @@ import type {
   WorkspaceMap,
   WorkspaceQuery,
 } from '../../net/protocol.gen';
-import { type Ramp, rampColour } from '../../plan/colourRamp';
+import { colourOf, type Ramp, type Range, rangeOf } from '../../plan/colourRamp';
+import { gridPixels } from '../../plan/pixels';
 
 /** Fine enough to look smooth on the paper's workspace and on a table of two metres. */
 const MIN_CELL_M = 0.005;
@@ -42,32 +43,22 @@ export function isRefused(map: WorkspaceMap, value_m3: number | null | undefined
 }
 
 /** Smallest and greatest value of the cells that are not refused. */
-export function heatRange(map: WorkspaceMap): [number, number] | undefined {
-  let range: [number, number] | undefined;
-  for (const value_m3 of map.manipulability_m3) {
-    if (value_m3 === null || isRefused(map, value_m3)) continue;
-    range = range
-      ? [Math.min(range[0], value_m3), Math.max(range[1], value_m3)]
-      : [value_m3, value_m3];
-  }
-  return range;
+export function heatRange(map: WorkspaceMap): Range | undefined {
+  return rangeOf(
+    map.manipulability_m3.filter((value_m3): value_m3 is number => !isRefused(map, value_m3)),
+  );
 }
 
 /**
- * RGBA, one pixel per cell, upper row first. Refused cells are hatched. They have the colour of the smallest value, so
- * that smoothing shows no edge there.
+ * One pixel per cell. Refused cells are hatched. They have the colour of the smallest value, so that smoothing shows no
+ * edge there.
  */
 export function heatPixels(map: WorkspaceMap, ramp: Ramp): Uint8ClampedArray<ArrayBuffer> {
-  const pixels = new Uint8ClampedArray(4 * map.columns * map.rows);
-  const [least_m3, greatest_m3] = heatRange(map) ?? [0, 0];
-  const span_m3 = greatest_m3 - least_m3;
-  map.manipulability_m3.forEach((value_m3, cell) => {
-    const row = map.rows - 1 - Math.floor(cell / map.columns);
-    const above_m3 = (value_m3 ?? 0) - least_m3;
-    const color = rampColour(ramp, span_m3 > 0 ? above_m3 / span_m3 : 0);
-    pixels.set([...color, 255], 4 * (row * map.columns + (cell % map.columns)));
-  });
-  return pixels;
+  const range_m3 = heatRange(map) ?? [0, 0];
+  return gridPixels(map.columns, map.rows, (cell) => [
+    ...colourOf(ramp, range_m3, map.manipulability_m3[cell] ?? 0),
+    255,
+  ]);
 }
 
 export function refusedRuns(map: WorkspaceMap): Run[] {

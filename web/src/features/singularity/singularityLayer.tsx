@@ -3,7 +3,7 @@
 import { Show, createMemo } from 'solid-js';
 import type { WorkspaceMap, WorkspaceQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
-import type { LayerContext, MapLayer } from '../../plan/layer';
+import { drawn, type LayerContext, type MapLayer } from '../../plan/layer';
 import { HeatLegend } from './HeatLegend';
 import { createHeat, drawHeat } from './drawHeat';
 import { workspaceQuery } from './heat';
@@ -31,15 +31,7 @@ export const SINGULARITY_LAYER: MapLayer = {
       return map && createHeat(map, palette());
     });
     return {
-      belowWalls: () => () => {
-        const now = question() && heat();
-        return (
-          now &&
-          ((ctx, picture) => {
-            drawHeat(ctx, picture.view, picture.palette, now);
-          })
-        );
-      },
+      belowWalls: drawn(() => question() && heat(), drawHeat),
       legend: () => (
         <Show when={question()}>
           <HeatLegend answer={answer()} />

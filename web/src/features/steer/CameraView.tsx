@@ -1,14 +1,16 @@
 // The camera's picture in place of the map: the hand sees what the controllers see.
 
-import { createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
+import { createEffect, createMemo, createSignal, type JSX } from 'solid-js';
 import { createCameraBitmap } from '../../lab/cameraBitmap';
 import type { TableView } from '../../lab/geometry';
 import { type Homography, pictureFromTable, tableFromPicture } from '../../lab/homography';
 import type { Notices } from '../../lab/slices';
 import { CAMERA_PX } from '../../net/protocol.gen';
 import type { SurfaceProps } from '../../plan/PlanView';
+import { circle } from '../../plan/shapes';
 import { contextOf } from '../../plan/sheet';
-import { type Size, ViewCanvas } from '../../plan/ViewCanvas';
+import { ViewCanvas } from '../../plan/ViewCanvas';
+import type { Size } from '../../ui/size';
 import './steer.css';
 
 /** The square of the picture inside the canvas. */
@@ -66,16 +68,9 @@ export function CameraView(
     if (!px) return;
     ctx.strokeStyle = palette().you;
     ctx.lineWidth = 2;
-    ctx.beginPath();
-    ctx.arc(...px, 7, 0, 2 * Math.PI);
+    circle(ctx, px, 7);
     ctx.stroke();
   });
-  createEffect(() => {
-    const own = canvas();
-    if (!own || size().width === 0) return;
-    props.onPicture?.({ size: size(), draw: () => own });
-  });
-  onCleanup(() => props.onPicture?.(undefined));
   return (
     <div class="camera-surface">
       <ViewCanvas
@@ -86,6 +81,8 @@ export function CameraView(
         helpId={props.helpId}
         onCanvas={setCanvas}
         onSize={setSize}
+        draw={canvas}
+        onPicture={props.onPicture}
       />
     </div>
   );

@@ -8,17 +8,11 @@ export interface Trail {
   readonly ys_m: Float64Array;
 }
 
-const NONE = new Float64Array();
-
 /** The trails from the start of the trial up to a state. */
 export function trailsOf(state: StateMessage, history: History): readonly [Trail, Trail] {
-  const [toolX = NONE, toolY = NONE, beadX = NONE, beadY = NONE] = history.window(
-    0,
-    state.sim_time_s,
-    ['tool_x_m', 'tool_y_m', 'bead_x_m', 'bead_y_m'],
-  );
+  const { tool_x_m, tool_y_m, bead_x_m, bead_y_m } = history.window(0, state.sim_time_s);
   return [
-    { of: 'tool', xs_m: toolX, ys_m: toolY },
-    { of: 'bead', xs_m: beadX, ys_m: beadY },
+    { of: 'tool', xs_m: tool_x_m, ys_m: tool_y_m },
+    { of: 'bead', xs_m: bead_x_m, ys_m: bead_y_m },
   ];
 }

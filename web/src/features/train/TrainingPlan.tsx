@@ -12,7 +12,7 @@ import { wallPath } from '../../plan/drawMap';
 import { createValues } from '../../plan/drawValues';
 import { contextOf } from '../../plan/sheet';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
-import type { Size } from '../../plan/ViewCanvas';
+import type { Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
 import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
@@ -69,8 +69,8 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
     return now && wallPath(props.map?.outlines ?? [], now);
   });
   const values = createMemo(() => {
-    const [now, { cells, frame, palette, range }] = [view(), props];
-    return now && cells && frame && createValues(valueCells(cells, frame), palette, now, range);
+    const { cells, frame, palette, range } = props;
+    return cells && frame && createValues(valueCells(cells, frame), palette, range);
   });
   const drawn = createMemo<Base | undefined>(() => {
     const [now, rect, outlines] = [view(), workspace(), walls()];

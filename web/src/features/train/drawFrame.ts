@@ -95,7 +95,7 @@ export function drawBase(ctx: Ctx, base: Base): void {
   if (values && layers.values) drawColours(ctx, view, values);
   drawOutlines(ctx, base.workspace, base.walls, view, palette);
   if (cells && frame && layers.starts) drawStarts(ctx, base, cells, frame);
-  if (values && layers.arrows) drawArrows(ctx, palette, values);
+  if (values && layers.arrows) drawArrows(ctx, view, palette, values);
   if (!cells) return;
   drawGoal(ctx, view, palette, cells.goal_m);
   const center = base.chosen === undefined ? undefined : cells.centers_m[base.chosen];

@@ -2,31 +2,9 @@
 
 import { Show, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
+import { MapLegend, Ramp } from '../../ui/MapLegend';
 import type { ValueMap } from '../../net/protocol.gen';
 import { valueRange } from '../../plan/values';
-import '../../ui/legend.css';
-import './values.css';
-
-function Range(props: { map: ValueMap }): JSX.Element {
-  return (
-    <>
-      <Show when={valueRange(props.map)}>
-        {(range) => (
-          <>
-            <span class="number" data-testid="value-least">
-              {fixed(range()[0], 2)}
-            </span>
-            <span class="heat-ramp" aria-hidden="true" />
-            <span class="number" data-testid="value-greatest">
-              {fixed(range()[1], 2)}
-            </span>
-          </>
-        )}
-      </Show>
-      <span class="aside">Trained on: {props.map.trained_on.join(', ')}</span>
-    </>
-  );
-}
 
 export function ValueLegend(props: {
   map: ValueMap | undefined;
@@ -36,24 +14,35 @@ export function ValueLegend(props: {
   const waits = (): string | undefined =>
     props.error === undefined ? 'calculating the values of the whole map…' : undefined;
   return (
-    <div class="map-legend" role="group" aria-label="Values">
+    <MapLegend
+      name="Values"
+      error={props.error}
+      // Always there: when the values come, the map above keeps its size.
+      below={
+        <p class="words">
+          Expected discounted return at each place for this goal
+          {props.map?.has_memory
+            ? ', by what the camera has seen so far'
+            : ', with images of the default camera'}
+          . Arrows show the best step.
+        </p>
+      }
+    >
       <span>Value</span>
       <Show when={props.hasGoal} fallback={<span>Set a goal to see the values.</span>}>
         <Show when={props.map} fallback={waits()}>
-          {(map) => <Range map={map()} />}
+          {(map) => (
+            <>
+              <Show when={valueRange(map())}>
+                {(range) => (
+                  <Ramp of="value" least={fixed(range()[0], 2)} greatest={fixed(range()[1], 2)} />
+                )}
+              </Show>
+              <span class="aside">Trained on: {map().trained_on.join(', ')}</span>
+            </>
+          )}
         </Show>
       </Show>
-      <span role="alert">
-        <Show when={props.error}>{(text) => <span class="refusal">{text()}</span>}</Show>
-      </span>
-      {/* Always there: when the values come, the map above keeps its size. */}
-      <p class="words">
-        Expected discounted return at each place for this goal
-        {props.map?.has_memory
-          ? ', by what the camera has seen so far'
-          : ', with images of the default camera'}
-        . Arrows show the best step.
-      </p>
-    </div>
+    </MapLegend>
   );
 }

@@ -4,9 +4,9 @@ import { createMemo } from 'solid-js';
 import type { ValueMap, ValueQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
 import { sessionPath } from '../../net/session';
-import type { LayerContext, MapLayer } from '../../plan/layer';
+import { drawn, type LayerContext, type MapLayer } from '../../plan/layer';
 import { ValueLegend } from './ValueLegend';
-import { createValues, drawValues } from '../../plan/drawValues';
+import { createValues, drawArrows, drawColours } from '../../plan/drawValues';
 import { valueKey } from './value';
 import type { Pictures, Session, Trial } from '../../lab/slices';
 
@@ -40,22 +40,15 @@ export const VALUE_LAYER: MapLayer = {
     const isNow = createMemo(() => key() !== undefined && answer().key === key());
     const error = createMemo(() => (isNow() ? answer().error : undefined));
     const map = createMemo(() => (isNow() && error() === undefined ? answer().data : undefined));
+    const values = createMemo(() => {
+      const now = map();
+      return now && createValues(now, palette());
+    });
     return {
-      belowWalls: (view) => {
-        const values = createMemo(() => {
-          const [mapNow, viewNow] = [map(), view()];
-          return mapNow && viewNow ? createValues(mapNow, palette(), viewNow) : undefined;
-        });
-        return () => {
-          const now = values();
-          return (
-            now &&
-            ((ctx, picture) => {
-              drawValues(ctx, picture.view, picture.palette, now);
-            })
-          );
-        };
-      },
+      belowWalls: drawn(values, (ctx, { view, palette }, now) => {
+        drawColours(ctx, view, now);
+        drawArrows(ctx, view, palette, now);
+      }),
       legend: () => <ValueLegend map={map()} error={error()} hasGoal={lab.goal() !== undefined} />,
     };
   },
