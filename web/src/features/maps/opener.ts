@@ -1,7 +1,7 @@
 // Sends the user's drawings to the server, and keeps what it says about the last one.
 
 import { createSignal, type Accessor } from 'solid-js';
-import { loadMap } from '../../lab/loadMap';
+import { loadTrial } from '../../lab/loadTrial';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { MapReport } from '../../net/protocol.gen';
 import { addMap, isOutOfReach } from '../../lab/maps';
@@ -50,7 +50,7 @@ export function createMapOpener(lab: Session & Trial & Notices): MapOpener {
       try {
         const report = await addMap(file, fit);
         setAdded({ file, report });
-        await loadMap(lab, report.name);
+        await loadTrial(lab, 'playback', { map: report.name });
         return true;
       } catch (reason) {
         say(reason instanceof Error ? reason.message : String(reason));
