@@ -44,7 +44,7 @@ export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
   const lab = createLab(window.location, MAP_LAYERS);
   const links = createPageExperiment(lab, window);
-  followChallengeLink(lab, window.location);
+  void followChallengeLink(lab, window.location);
   const [view, setView] = createSignal<View>('laboratory');
   const [picture, setPicture] = createSignal<ViewPicture>();
   const capture = createCapture(lab, picture, createPalette(theme));
