@@ -1,9 +1,59 @@
 // The table of a board.
 
 import { For, createMemo, on, type JSX } from 'solid-js';
+import { Dynamic } from 'solid-js/web';
 import { seconds } from '../../ui/format';
 import { type Row, when } from './entries';
 import { shownName } from '../../ui/name';
+
+interface Column {
+  readonly head: string;
+  readonly class: string;
+  readonly cell: (row: Row, now: Date) => JSX.Element;
+  /** A name, which may be cut off. */
+  readonly full?: (row: Row) => string;
+  /** The name of the row. */
+  readonly isName?: true;
+  /** Whether a phone, which shows no head, puts its name before it. */
+  readonly isLabelled?: true;
+}
+
+const playerOf = ({ entry }: Row): string => shownName(entry.player);
+const classOf = ({ entry }: Row): string => shownName(entry.class ?? '');
+
+const COLUMNS: readonly Column[] = [
+  { head: 'Place', class: 'number board-place', cell: ({ place }) => place },
+  { head: 'Player', class: 'board-player', cell: playerOf, full: playerOf, isName: true },
+  { head: 'Class', class: 'board-class', cell: classOf, full: classOf },
+  { head: 'Total', class: 'number board-total', cell: ({ entry }) => seconds(entry.total_s) },
+  {
+    head: 'Time',
+    class: 'number board-time',
+    cell: ({ time_s }) => seconds(time_s),
+    isLabelled: true,
+  },
+  {
+    head: 'Wall stops',
+    class: 'number board-walls',
+    cell: ({ entry }) => entry.score.walls,
+    isLabelled: true,
+  },
+  {
+    head: 'Lost beads',
+    class: 'number board-lost',
+    cell: ({ entry }) => entry.score.lost_beads,
+    isLabelled: true,
+  },
+  {
+    head: 'When',
+    class: 'number board-when',
+    cell: ({ entry }, now) => (
+      <time dateTime={entry.at} title={new Date(entry.at).toLocaleString()}>
+        {when(entry.at, now)}
+      </time>
+    ),
+  },
+];
 
 /** The roles are explicit because a phone shows each row as a block, which would remove them. */
 export function BoardTable(props: {
@@ -24,62 +74,36 @@ export function BoardTable(props: {
       <caption class="visually-hidden">Board of {props.name}, the best attempt first</caption>
       <thead role="rowgroup">
         <tr role="row">
-          <th role="columnheader" scope="col" class="number">
-            Place
-          </th>
-          <th role="columnheader" scope="col">
-            Player
-          </th>
-          <th role="columnheader" scope="col">
-            Class
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            Total
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            Time
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            Wall stops
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            Lost beads
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            When
-          </th>
+          <For each={COLUMNS}>
+            {(column) => (
+              <th
+                role="columnheader"
+                scope="col"
+                classList={{ number: column.class.startsWith('number') }}
+              >
+                {column.head}
+              </th>
+            )}
+          </For>
         </tr>
       </thead>
       <tbody role="rowgroup">
         <For each={props.rows}>
-          {({ key, place, entry, time_s }) => (
-            <tr role="row" data-new={props.fresh.has(key) ? '' : undefined}>
-              <td role="cell" class="number board-place">
-                {place}
-              </td>
-              <th role="rowheader" scope="row" class="board-player" title={shownName(entry.player)}>
-                {shownName(entry.player)}
-              </th>
-              <td role="cell" class="board-class" title={shownName(entry.class ?? '')}>
-                {shownName(entry.class ?? '')}
-              </td>
-              <td role="cell" class="number board-total">
-                {seconds(entry.total_s)}
-              </td>
-              <td role="cell" class="number board-time" data-label="Time">
-                {seconds(time_s)}
-              </td>
-              <td role="cell" class="number board-walls" data-label="Wall stops">
-                {entry.score.walls}
-              </td>
-              <td role="cell" class="number board-lost" data-label="Lost beads">
-                {entry.score.lost_beads}
-              </td>
-              <td role="cell" class="number board-when">
-                <time dateTime={entry.at} title={new Date(entry.at).toLocaleString()}>
-                  {when(entry.at, now())}
-                </time>
-              </td>
+          {(row) => (
+            <tr role="row" data-new={props.fresh.has(row.key) ? '' : undefined}>
+              <For each={COLUMNS}>
+                {(column) => (
+                  <Dynamic
+                    component={column.isName ? 'th' : 'td'}
+                    role={column.isName ? 'rowheader' : 'cell'}
+                    class={column.class}
+                    title={column.full?.(row)}
+                    data-label={column.isLabelled && column.head}
+                  >
+                    {column.cell(row, now())}
+                  </Dynamic>
+                )}
+              </For>
             </tr>
           )}
         </For>
