@@ -1,10 +1,11 @@
 // The page `/board`: the board of a challenge, large enough for a projector.
 
-import { Show, createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
+import { Show, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
 import { playQuery } from '../../lab/challenges';
 import { loggedOut } from '../../net/access';
 import type { ChallengeReport, Challenges, ChallengeSummary } from '../../net/protocol.gen';
 import { counted, fixed } from '../../ui/format';
+import { listen } from '../../ui/listen';
 import { createTheme } from '../../ui/theme';
 import { BoardChoices } from './BoardChoices';
 import { BoardTable } from './BoardTable';
@@ -58,11 +59,7 @@ export function BoardPage(): JSX.Element {
     window.history.pushState(null, '', boardAddress(next));
     setChosen(next);
   };
-  const goBack = (): void => {
-    setChosen(chosenIn(window.location.search));
-  };
-  window.addEventListener('popstate', goBack);
-  onCleanup(() => window.removeEventListener('popstate', goBack));
+  listen('popstate', () => setChosen(chosenIn(window.location.search)));
 
   return (
     <main class="board-page">

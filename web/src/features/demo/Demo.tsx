@@ -1,6 +1,6 @@
 // The demonstration: runs the programme, shows its captions, and gives way to a visitor.
 
-import { Show, createEffect, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
+import { Show, createEffect, createSignal, on, onCleanup, type JSX } from 'solid-js';
 import { knownBy } from '../../lab/known';
 import { loadLink } from '../../lab/loadTrial';
 import { PlaceNotice } from '../../lab/PlaceNotice';
@@ -26,6 +26,7 @@ import {
   visitorCaption,
   watchedCaption,
 } from './programme';
+import { listen } from '../../ui/listen';
 import './demo.css';
 import { pathOf } from '../../net/base';
 
@@ -135,40 +136,36 @@ export function Demo(props: {
     }),
   );
 
-  onMount(() => {
-    const timer = setInterval(tick, TICK_MS);
-    const listening = new AbortController();
-    const listen = <K extends keyof WindowEventMap>(
-      type: K,
-      listener: (event: WindowEventMap[K]) => void,
-    ): void => {
-      const { signal } = listening;
-      window.addEventListener(type, listener, { capture: true, passive: true, signal });
-    };
-    const touch = (): void => {
-      if (!lab.canOperate()) return;
-      const isFirst = touched_ms() === undefined;
-      setTouched(nowMs());
-      // A visitor begins with the clock; the ghosts have run alone.
-      const isNew = isContest() && (isFirst || isOver(lab.contest.attempt()));
-      if (isNew) void play();
-      if (isNew || !lab.state()?.running) run();
-    };
-    listen('pointerdown', touch);
-    listen('wheel', touch);
-    listen('pointermove', (event) => {
+  const touch = (): void => {
+    if (!lab.canOperate()) return;
+    const isFirst = touched_ms() === undefined;
+    setTouched(nowMs());
+    // A visitor begins with the clock; the ghosts have run alone.
+    const isNew = isContest() && (isFirst || isOver(lab.contest.attempt()));
+    if (isNew) void play();
+    if (isNew || !lab.state()?.running) run();
+  };
+  const early = { capture: true, passive: true };
+  listen('pointerdown', touch, early);
+  listen('wheel', touch, early);
+  listen(
+    'pointermove',
+    (event) => {
       // A drag that goes on is no silence.
       if (event.buttons !== 0) touch();
-    });
-    listen('keydown', (event) => {
+    },
+    early,
+  );
+  listen(
+    'keydown',
+    (event) => {
       if (event.key === 'Escape') window.location.assign(home);
       else if (isVisitorKey(event)) touch();
-    });
-    onCleanup(() => {
-      clearInterval(timer);
-      listening.abort();
-    });
-  });
+    },
+    early,
+  );
+  const timer = setInterval(tick, TICK_MS);
+  onCleanup(() => clearInterval(timer));
 
   const carrier = (name: ControllerName): string =>
     name === 'you' && touched_ms() === undefined ? 'Ghosts' : CARRIERS[name];

@@ -1,9 +1,10 @@
 // A map of one's own: drawn here, checked by the server after each change, saved and used.
 
-import { createMemo, onCleanup, type JSX } from 'solid-js';
+import { createMemo, type JSX } from 'solid-js';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import { fixed } from '../../ui/format';
+import { listen } from '../../ui/listen';
 import { createCheck } from './check';
 import { svgText } from './drawing';
 import { createEditor, type Editor } from './editor';
@@ -29,13 +30,7 @@ export function DrawView(props: DrawProps): JSX.Element {
   const svg = createMemo(() => svgText(editor.editing().drawing));
   const isLive = createMemo(() => props.lab.connection().kind === 'live');
   const { found, error, isPresent } = createCheck(svg, isLive);
-  const onKeyDown = (event: KeyboardEvent): void => {
-    onUndoKey(editor, event);
-  };
-  document.addEventListener('keydown', onKeyDown);
-  onCleanup(() => {
-    document.removeEventListener('keydown', onKeyDown);
-  });
+  listen('keydown', (event) => onUndoKey(editor, event));
   const place = (): string => {
     const at = editor.pointer();
     return at ? `x ${fixed(at[0] / 1000, 3)} y ${fixed(-at[1] / 1000, 3)} m` : 'x –   y –';

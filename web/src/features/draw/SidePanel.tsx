@@ -4,6 +4,7 @@ import { For, Show, createSignal, type JSX } from 'solid-js';
 import type { MapCheck } from '../../net/protocol.gen';
 import { checkOf, checkOfMap, freeName, mapName, refuseLarge } from '../../lab/maps';
 import type { Session, Trial } from '../../lab/slices';
+import { TextField } from '../../ui/fields/fields';
 import { FileButton } from '../../ui/FileButton';
 import { download } from '../../ui/download';
 import { checkWords } from './check';
@@ -103,17 +104,12 @@ export function SidePanel(props: {
         )}
       </Show>
       <h2>Use it</h2>
-      <label class="draw-field">
-        <span>Name</span>
-        <input
-          type="text"
-          value={props.editor.name()}
-          maxLength={34}
-          onInput={(event) => {
-            props.editor.rename(event.currentTarget.value);
-          }}
-        />
-      </label>
+      <TextField
+        label="Name"
+        value={props.editor.name()}
+        maxLength={34}
+        onInput={props.editor.rename}
+      />
       <div class="draw-row">
         <button
           type="button"

@@ -1,7 +1,8 @@
 // The tools, their settings, and what can be done to the drawing as a whole.
 
-import { For, Show, createUniqueId, type JSX } from 'solid-js';
-import { SYMMETRIES, type Symmetry } from './drawing';
+import { For, Show, type JSX } from 'solid-js';
+import { ChoiceField, FlagField } from '../../ui/fields/fields';
+import { SYMMETRIES } from './drawing';
 import type { Editor } from './editor';
 import { type Brush, SIZES_MM, type Step, type Tool } from './editing';
 import { TOOL_KEYS } from './keys';
@@ -92,7 +93,6 @@ function Size(props: { editor: Editor; brush: Brush; name: string }): JSX.Elemen
 
 export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element {
   const { editor } = props;
-  const symmetryId = createUniqueId();
   const tool = (): Tool => editor.editing().tool;
   const help = (): string => TOOLS.find(([name]) => name === tool())?.[2] ?? '';
   return (
@@ -119,33 +119,17 @@ export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element 
           {(brush) => <Size editor={editor} brush={brush()[0]} name={brush()[1]} />}
         </Show>
       </div>
-      <label>
-        <input
-          type="checkbox"
-          checked={editor.editing().snap_mm > 0}
-          onChange={(event) =>
-            editor.act({ type: 'snap', snap_mm: event.currentTarget.checked ? SNAP_MM : 0 })
-          }
-        />
-        Snap to {SNAP_MM} mm
-      </label>
-      <div class="draw-field">
-        <label for={symmetryId}>Symmetry</label>
-        <select
-          id={symmetryId}
-          onChange={(event) => {
-            editor.act({ type: 'symmetry', symmetry: event.currentTarget.value as Symmetry });
-          }}
-        >
-          <For each={SYMMETRIES}>
-            {([name, label]) => (
-              <option value={name} selected={editor.editing().symmetry === name}>
-                {label}
-              </option>
-            )}
-          </For>
-        </select>
-      </div>
+      <FlagField
+        label={`Snap to ${SNAP_MM} mm`}
+        value={editor.editing().snap_mm > 0}
+        onChoose={(snaps) => editor.act({ type: 'snap', snap_mm: snaps ? SNAP_MM : 0 })}
+      />
+      <ChoiceField
+        label="Symmetry"
+        value={editor.editing().symmetry}
+        options={SYMMETRIES}
+        onChoose={(symmetry) => editor.act({ type: 'symmetry', symmetry })}
+      />
       <For each={DEEDS}>
         {(row) => (
           <div class="draw-row">

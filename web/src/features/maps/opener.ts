@@ -20,7 +20,7 @@ export interface MapOpener {
    * why if it was not.
    */
   open(file: File, fit?: boolean): Promise<boolean>;
-  dismiss(): void;
+  readonly dismiss: () => void;
 }
 
 export function createMapOpener(lab: Session & Trial & Notices): MapOpener {

@@ -11,6 +11,7 @@ import { sessionPath } from '../../net/session';
 import { eventTitle, isSameEvent, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
 import { causeOfEvent } from '../../lab/failure';
 import type { Events, OpenTab, Session, Trial } from '../../lab/slices';
+import { CloseButton } from '../../ui/CloseButton';
 import './why.css';
 import { addressOf } from '../../net/base';
 
@@ -116,9 +117,7 @@ function Card(props: {
         >
           ›
         </button>
-        <button type="button" class="bare" aria-label="Close" onClick={close}>
-          ×
-        </button>
+        <CloseButton label="Close" onClose={close} />
       </header>
       <div class="why-body">
         <p class="why-sentence">{sentence(eventWords(props.event.what))}</p>
