@@ -6,53 +6,31 @@ import { seconds } from '../../ui/format';
 import { type Row, when } from './entries';
 import { shownName } from '../../ui/name';
 
-interface Column {
-  readonly head: string;
-  readonly class: string;
-  readonly cell: (row: Row, now: Date) => JSX.Element;
-  /** A name, which may be cut off. */
-  readonly full?: (row: Row) => string;
-  /** The name of the row. */
-  readonly isName?: true;
-  /** Whether a phone, which shows no head, puts its name before it. */
-  readonly isLabelled?: true;
-}
+/** A name, which may be cut off. */
+const named = (name: string): JSX.Element => <span title={shownName(name)}>{shownName(name)}</span>;
 
-const playerOf = ({ entry }: Row): string => shownName(entry.player);
-const classOf = ({ entry }: Row): string => shownName(entry.class ?? '');
-
-const COLUMNS: readonly Column[] = [
-  { head: 'Place', class: 'number board-place', cell: ({ place }) => place },
-  { head: 'Player', class: 'board-player', cell: playerOf, full: playerOf, isName: true },
-  { head: 'Class', class: 'board-class', cell: classOf, full: classOf },
-  { head: 'Total', class: 'number board-total', cell: ({ entry }) => seconds(entry.total_s) },
-  {
-    head: 'Time',
-    class: 'number board-time',
-    cell: ({ time_s }) => seconds(time_s),
-    isLabelled: true,
-  },
-  {
-    head: 'Wall stops',
-    class: 'number board-walls',
-    cell: ({ entry }) => entry.score.walls,
-    isLabelled: true,
-  },
-  {
-    head: 'Lost beads',
-    class: 'number board-lost',
-    cell: ({ entry }) => entry.score.lost_beads,
-    isLabelled: true,
-  },
-  {
-    head: 'When',
-    class: 'number board-when',
-    cell: ({ entry }, now) => (
+const NAME = 'Player';
+const COLUMNS: readonly (readonly [
+  head: string,
+  classes: string,
+  cell: (row: Row, now: Date) => JSX.Element,
+])[] = [
+  ['Place', 'number board-place', ({ place }) => place],
+  [NAME, 'board-player', ({ entry }) => named(entry.player)],
+  ['Class', 'board-class', ({ entry }) => named(entry.class ?? '')],
+  ['Total', 'number board-total', ({ entry }) => seconds(entry.total_s)],
+  ['Time', 'number board-time', ({ time_s }) => seconds(time_s)],
+  ['Wall stops', 'number board-walls', ({ entry }) => entry.score.walls],
+  ['Lost beads', 'number board-lost', ({ entry }) => entry.score.lost_beads],
+  [
+    'When',
+    'number board-when',
+    ({ entry }, now) => (
       <time dateTime={entry.at} title={new Date(entry.at).toLocaleString()}>
         {when(entry.at, now)}
       </time>
     ),
-  },
+  ],
 ];
 
 /** The roles are explicit because a phone shows each row as a block, which would remove them. */
@@ -75,13 +53,13 @@ export function BoardTable(props: {
       <thead role="rowgroup">
         <tr role="row">
           <For each={COLUMNS}>
-            {(column) => (
+            {([head, classes]) => (
               <th
                 role="columnheader"
                 scope="col"
-                classList={{ number: column.class.startsWith('number') }}
+                classList={{ number: classes.startsWith('number') }}
               >
-                {column.head}
+                {head}
               </th>
             )}
           </For>
@@ -92,15 +70,14 @@ export function BoardTable(props: {
           {(row) => (
             <tr role="row" data-new={props.fresh.has(row.key) ? '' : undefined}>
               <For each={COLUMNS}>
-                {(column) => (
+                {([head, classes, cell]) => (
                   <Dynamic
-                    component={column.isName ? 'th' : 'td'}
-                    role={column.isName ? 'rowheader' : 'cell'}
-                    class={column.class}
-                    title={column.full?.(row)}
-                    data-label={column.isLabelled && column.head}
+                    component={head === NAME ? 'th' : 'td'}
+                    role={head === NAME ? 'rowheader' : 'cell'}
+                    class={classes}
+                    data-label={head}
                   >
-                    {column.cell(row, now())}
+                    {cell(row, now())}
                   </Dynamic>
                 )}
               </For>
