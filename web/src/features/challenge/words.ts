@@ -57,6 +57,9 @@ export function penaltyWords(
   return `${part(walls, 'wall stop', rules?.wall_s)}, ${part(lost_beads, 'lost bead', rules?.lost_bead_s)}`;
 }
 
+/** `RL, ERRT and Attractor`. */
+const LIST = new Intl.ListFormat('en-GB');
+
 /** Whom the attempt has beaten, in one sentence. Equal times are a win for the ghost. */
 export function verdict(
   attempt: AttemptStanding,
@@ -73,16 +76,10 @@ export function verdict(
     total_s === null || attempt.total_s < total_s;
   const beaten = controllers.filter(isBeaten).map(ghostName);
   const faster = controllers.filter((one) => !isBeaten(one)).map(ghostName);
-  if (faster.length === 0) return `You beat ${listed(beaten)}.`;
+  if (faster.length === 0) return `You beat ${LIST.format(beaten)}.`;
   if (beaten.length === 0)
-    return `${listed(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
-  return `You beat ${listed(beaten)}; ${listed(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
-}
-
-/** `RL, ERRT and Attractor`. */
-function listed(names: readonly string[]): string {
-  const last = names.at(-1) ?? '';
-  return names.length < 2 ? last : `${names.slice(0, -1).join(', ')} and ${last}`;
+    return `${LIST.format(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
+  return `You beat ${LIST.format(beaten)}; ${LIST.format(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
 }
 
 const times = (count: number): string =>
@@ -101,6 +98,6 @@ export function lossWords(loss: LossMessage, other: ControllerName | null, tick_
   const why =
     causes.length === 0
       ? 'Nothing happened to the bead: the magnet waited, or took a longer way.'
-      : `In this time ${listed(causes)}.`;
+      : `In this time ${LIST.format(causes)}.`;
   return `Most time was lost from ${from ?? ''} to ${to ?? ''}: ${seconds(loss.lost_s)} more ${against} for this part of the way. ${why}`;
 }
