@@ -1,6 +1,6 @@
 // The challenge that is being played: its ghosts, and after the attempt what is said about it.
 
-import { createEffect, createMemo, createSignal, on, type Accessor } from 'solid-js';
+import { createEffect, createMemo, createSignal, on } from 'solid-js';
 import type {
   AttemptAnswer,
   AttemptQuery,
@@ -15,24 +15,6 @@ import type { Answer } from './commands';
 import { challengePath } from './challenges';
 import type { Session, Trial } from './slices';
 
-export interface Contest {
-  /** Name of the challenge; undefined if none is being played. */
-  readonly name: Accessor<string | undefined>;
-  readonly attempt: Accessor<AttemptStanding | undefined>;
-  /** Rules and board. */
-  readonly challenge: Accessor<ChallengeReport | undefined>;
-  readonly ghosts: Accessor<Ghosts | undefined>;
-  /** About the attempt that has ended. */
-  readonly report: Accessor<AttemptReport | undefined>;
-  /** What the server said about the attempt that was sent. */
-  readonly answer: Accessor<AttemptAnswer | undefined>;
-  /** Why the newest request has no answer. */
-  readonly error: Accessor<string | undefined>;
-  play(name: string): Promise<Answer>;
-  /** Puts the attempt on the board. Throws a refusal. */
-  sign(player: string, group: string): Promise<void>;
-}
-
 export const isOver = (attempt: AttemptStanding | undefined): boolean =>
   attempt !== undefined && (attempt.is_delivered || attempt.is_time_up);
 
@@ -45,7 +27,7 @@ export const isAtStake = ({ state }: Pick<Trial, 'state'>): boolean => {
 
 type Reads = Pick<Session, 'session' | 'send' | 'hello'> & Pick<Trial, 'scene' | 'state'>;
 
-export function createContest(lab: Reads): Contest {
+export function createContest(lab: Reads) {
   const name = createMemo(() => lab.scene()?.challenge ?? undefined);
   const attempt = createMemo(() => lab.state()?.attempt ?? undefined);
   const [challenge, setChallenge] = createSignal<ChallengeReport>();
@@ -90,15 +72,22 @@ export function createContest(lab: Reads): Contest {
     }),
   );
   return {
+    /** Name of the challenge; undefined if none is being played. */
     name,
     attempt,
+    /** Rules and board. */
     challenge,
     ghosts,
+    /** About the attempt that has ended. */
     report,
+    /** What the server said about the attempt that was sent. */
     answer,
+    /** Why the newest request has no answer. */
     error,
-    play: (challenge) => lab.send('playback', { type: 'play_challenge', challenge }),
-    sign: async (player, group) => {
+    play: (challenge: string): Promise<Answer> =>
+      lab.send('playback', { type: 'play_challenge', challenge }),
+    /** Puts the attempt on the board. Throws a refusal. */
+    sign: async (player: string, group: string): Promise<void> => {
       const [of, ended, seat] = [name(), report()?.attempt, lab.hello()?.seat];
       if (of === undefined || !ended || seat === undefined) return;
       const query: AttemptQuery = {
@@ -117,3 +106,5 @@ export function createContest(lab: Reads): Contest {
     },
   };
 }
+
+export type Contest = ReturnType<typeof createContest>;

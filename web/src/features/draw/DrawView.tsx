@@ -29,7 +29,7 @@ export function DrawView(props: DrawProps): JSX.Element {
   const editor = (props.kept.editor ??= createEditor());
   const svg = createMemo(() => svgText(editor.editing().drawing));
   const isLive = createMemo(() => props.lab.connection().kind === 'live');
-  const { found, error, isPresent } = createCheck(svg, isLive);
+  const check = createCheck(svg, isLive);
   listen('keydown', (event) => onUndoKey(editor, event));
   const place = (): string => {
     const at = editor.pointer();
@@ -39,11 +39,7 @@ export function DrawView(props: DrawProps): JSX.Element {
     <main class="view draw">
       <Toolbar editor={editor} helpId={HELP_ID} />
       <section class="panel draw-stage" aria-label="Drawing area">
-        <Surface
-          editor={editor}
-          passages={isPresent() ? (found()?.passages ?? []) : []}
-          helpId={HELP_ID}
-        />
+        <Surface editor={editor} passages={check.found()?.passages ?? []} helpId={HELP_ID} />
         <footer class="panel-foot">
           <p class="hint">Squares of 5 cm. The border is a wall.</p>
           <output class="readout" aria-live="off">
@@ -55,13 +51,7 @@ export function DrawView(props: DrawProps): JSX.Element {
       <SidePanel
         lab={props.lab}
         editor={editor}
-        finish={() => {
-          editor.act({ type: 'finish' });
-          return svg();
-        }}
-        check={found()}
-        error={error()}
-        isChecked={isPresent()}
+        check={check}
         onSave={async (file) => {
           if (await props.open(file)) props.onLaboratory();
         }}

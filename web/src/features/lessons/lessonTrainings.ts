@@ -1,6 +1,6 @@
 // The trainings of the lessons.
 
-import { createSignal, type Accessor } from 'solid-js';
+import { createSignal } from 'solid-js';
 import { isActive } from '../../lab/trainingStage';
 import type { Catalog } from '../../lab/catalog';
 import type { TrainingSummary } from '../../net/protocol.gen';
@@ -10,25 +10,18 @@ import type { TrainingRun } from './lesson';
 const MAP = 'u-turn';
 const SEED = 1;
 
-export interface LessonTrainings {
-  /** Undefined before it is started in the open lesson. */
-  summary(run: TrainingRun): TrainingSummary | undefined;
-  /** Why the newest request was refused, if it was. */
-  readonly refusal: Accessor<string | undefined>;
-  /** Trains, in place of the policy of an earlier time; follows a training that is still active. */
-  start(run: TrainingRun): Promise<void>;
-  /** Another lesson is opened. */
-  forget(): void;
-}
-
-export function createLessonTrainings(catalog: Catalog): LessonTrainings {
+export function createLessonTrainings(catalog: Catalog) {
   const [refusal, setRefusal] = createSignal<string>();
   const [ids, setIds] = createSignal<ReadonlyMap<TrainingRun, string>>(new Map());
   const listed = (): readonly TrainingSummary[] => catalog.trainings() ?? [];
   return {
-    summary: (run) => listed().find(({ id }) => id === ids().get(run)),
+    /** Undefined before it is started in the open lesson. */
+    summary: (run: TrainingRun): TrainingSummary | undefined =>
+      listed().find(({ id }) => id === ids().get(run)),
+    /** Why the newest request was refused, if it was. */
     refusal,
-    async start(run) {
+    /** Trains, in place of the policy of an earlier time; follows a training that is still active. */
+    start: async (run: TrainingRun): Promise<void> => {
       const { policy, settings, startFrom } = run;
       setRefusal(undefined);
       try {
@@ -43,7 +36,8 @@ export function createLessonTrainings(catalog: Catalog): LessonTrainings {
         setRefusal(reason instanceof Error ? reason.message : String(reason));
       }
     },
-    forget: () => {
+    /** Another lesson is opened. */
+    forget: (): void => {
       setIds(new Map());
       setRefusal(undefined);
     },

@@ -1,56 +1,23 @@
 // The open lesson, its step, and the measurements of its experiments. The store lives as long as the page, so that a
 // lesson continues while the user looks at another tab.
 
-import { createEffect, createMemo, createRoot, createSignal, type Accessor } from 'solid-js';
+import { createEffect, createMemo, createRoot, createSignal } from 'solid-js';
 import { loadLink } from '../../lab/loadTrial';
 import type { Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
 import { shareWords } from '../../lab/trainingStage';
 import type { Parameters } from '../../net/protocol.gen';
 import { recall, remember } from '../../ui/storage';
-import {
-  type Fact,
-  isTraining,
-  isTrainingLesson,
-  type Lesson,
-  type Run,
-  tasksOf,
-  type TrainingRun,
-} from './lesson';
-import { createLessonTrainings, type LessonTrainings } from './lessonTrainings';
+import { type Fact, isTraining, isTrainingLesson, type Lesson, type Run, tasksOf } from './lesson';
+import { createLessonTrainings } from './lessonTrainings';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, progressFrom } from './progress';
 import { startTrack, observe, type Track } from './track';
 
 const KEY = 'lessons';
 
-export interface Lessons {
-  readonly progress: Accessor<Progress>;
-  readonly lesson: Accessor<Lesson | undefined>;
-  /** The lesson that was open before. */
-  readonly left: Accessor<Lesson | undefined>;
-  /** 0 is Predict, then come the runs, then Explain. */
-  readonly step: Accessor<number>;
-  /** The experiment or the training of the present step. */
-  readonly run: Accessor<Run | TrainingRun | undefined>;
-  readonly trainings: LessonTrainings;
-  /** The measurements of the present experiment, if it was set up. */
-  readonly track: Accessor<Track | undefined>;
-  /** Whether the page shows an experiment other than the followed one. */
-  readonly isElsewhere: Accessor<boolean>;
-  /** Whether the user may go to the next step. */
-  readonly mayGoOn: Accessor<boolean>;
-  /** Outcome and facts, if all runs were done since the lesson was opened. */
-  readonly result: Accessor<
-    { readonly outcome: string; readonly facts: readonly Fact[] } | undefined
-  >;
-  open(lesson: Lesson): void;
-  readonly close: () => void;
-  /** The lesson is done when its last step is shown. */
-  go(step: number): void;
-  choose(choice: string): void;
-  /** Loads the run's experiment. */
-  setUp(run: Run): Promise<void>;
-  readonly startOver: () => void;
+interface Result {
+  readonly outcome: string;
+  readonly facts: readonly Fact[];
 }
 
 export type LessonsLab = Session & Trial & Events & Pictures & Layers;
@@ -61,7 +28,7 @@ function all<R, M>(runs: readonly R[], measured: (run: R) => M | undefined): M[]
   return found.length === runs.length ? found : undefined;
 }
 
-function createLessons(lab: LessonsLab): Lessons {
+function createLessons(lab: LessonsLab) {
   const [progress, setProgress] = createSignal(progressFrom(recall(KEY), LESSONS));
   const [lesson, setLesson] = createSignal<Lesson>();
   const [left, setLeft] = createSignal<Lesson>();
@@ -139,16 +106,22 @@ function createLessons(lab: LessonsLab): Lessons {
   return {
     progress,
     lesson,
+    /** The lesson that was open before. */
     left,
+    /** 0 is Predict, then come the runs, then Explain. */
     step,
+    /** The experiment or the training of the present step. */
     run,
     trainings,
+    /** The measurements of the present experiment, if it was set up. */
     track,
-    isElsewhere: () => {
+    /** Whether the page shows an experiment other than the followed one. */
+    isElsewhere: (): boolean => {
       const now = track();
       return now !== undefined && now.trial !== lab.scene()?.trial;
     },
-    mayGoOn: () => {
+    /** Whether the user may go to the next step. */
+    mayGoOn: (): boolean => {
       const [now, here, measured] = [lesson(), run(), track()];
       if (!now) return false;
       if (!here) return progress().choices[now.id] !== undefined;
@@ -156,7 +129,8 @@ function createLessons(lab: LessonsLab): Lessons {
       if (isTraining(here)) return trainings.summary(here)?.stage === 'done';
       return measured !== undefined && tasksOf(here).every((task) => task.done(measured));
     },
-    result: () => {
+    /** Outcome and facts, if all runs were done since the lesson was opened. */
+    result: (): Result | undefined => {
       const now = lesson();
       if (!now) return undefined;
       if (isTrainingLesson(now)) {
@@ -174,22 +148,24 @@ function createLessons(lab: LessonsLab): Lessons {
       const measured = all(now.runs, (one) => tracks().get(one));
       return measured && { outcome: now.outcome(...measured), facts: now.facts(...measured) };
     },
-    open(next) {
+    open: (next: Lesson): void => {
       leave();
       setLesson(next);
     },
     close: leave,
-    go(to) {
+    /** The lesson is done when its last step is shown. */
+    go: (to: number): void => {
       go(to);
       const now = lesson();
       if (now && to > now.runs.length && !isDone(now))
         keep({ ...progress(), done: [...progress().done, now.id] });
     },
-    choose(choice) {
+    choose: (choice: string): void => {
       const now = lesson();
       if (now) keep({ ...progress(), choices: { ...progress().choices, [now.id]: choice } });
     },
-    async setUp(next) {
+    /** Loads the run's experiment. */
+    setUp: async (next: Run): Promise<void> => {
       const scene = lab.scene();
       if (!scene) return;
       before ??= { parameters: scene.parameters, speed: lab.state()?.speed_target ?? 1 };
@@ -200,12 +176,14 @@ function createLessons(lab: LessonsLab): Lessons {
       const answer = await loaded;
       if (answer?.kind === 'done' && run() === next) setOwn(scenario());
     },
-    startOver() {
+    startOver: (): void => {
       leave();
       keep(NO_PROGRESS);
     },
   };
 }
+
+export type Lessons = ReturnType<typeof createLessons>;
 
 const stores = new WeakMap<LessonsLab, Lessons>();
 
