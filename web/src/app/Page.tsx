@@ -44,7 +44,7 @@ export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
   const lab = createLab(window, MAP_LAYERS);
   const links = createPageExperiment(lab, window);
-  followChallengeLink(lab, window.location);
+  void followChallengeLink(lab, window.location);
   const { address } = lab;
   const { view } = address;
   const [picture, setPicture] = createSignal<ViewPicture>();

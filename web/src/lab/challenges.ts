@@ -1,6 +1,12 @@
 // Names and addresses of challenges.
 
-import type { DifficultyName, Period } from '../net/protocol.gen';
+import {
+  CONTROLLER_LABELS,
+  type DifficultyName,
+  type GhostMessage,
+  type Period,
+} from '../net/protocol.gen';
+import { shownName } from '../ui/name';
 
 export const DIFFICULTY_LABELS: Readonly<Record<DifficultyName, string>> = {
   easy: 'Easy',
@@ -9,6 +15,9 @@ export const DIFFICULTY_LABELS: Readonly<Record<DifficultyName, string>> = {
 };
 
 export const PERIOD_LABELS: Readonly<Record<Period, string>> = { day: 'Today', week: 'This week' };
+
+export const ghostName = ({ controller, player }: GhostMessage): string =>
+  player === null ? CONTROLLER_LABELS[controller] : shownName(player);
 
 /** The page that plays a challenge, after the address of a session. */
 export const playQuery = (name: string): string => `?challenge=${encodeURIComponent(name)}`;

@@ -51,24 +51,10 @@ export function sentence(text: string): string {
   return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + end;
 }
 
-export interface Margin {
-  readonly error_m: number;
-  readonly threshold_m: number;
-  /** Error minus threshold; negative within the limit. */
-  readonly over_m: number;
-  readonly text: string;
-}
-
-export function marginOf(moment: MomentMessage): Margin {
-  const { error_m, threshold_m } = moment;
+/** How far the error is from the threshold. */
+export function marginWords({ error_m, threshold_m }: MomentMessage): string {
   const over_m = error_m - threshold_m;
-  const side = over_m > 0 ? 'over' : 'within';
-  return {
-    error_m,
-    threshold_m,
-    over_m,
-    text: `${millimetres(Math.abs(over_m))} ${side} the limit`,
-  };
+  return `${millimetres(Math.abs(over_m))} ${over_m > 0 ? 'over' : 'within'} the limit`;
 }
 
 function transport(moment: MomentMessage): string {

@@ -1,6 +1,6 @@
 // Points of the table, in metres (x right, y up).
 
-import type { Polygon, Rect } from '../net/protocol.gen';
+import type { Rect } from '../net/protocol.gen';
 
 export type Vec2 = readonly [number, number];
 
@@ -43,6 +43,12 @@ export function around(...rects: readonly Rect[]): Rect {
   };
 }
 
+/** An outline and its holes. */
+export interface Filled {
+  readonly exterior: readonly Vec2[];
+  readonly holes: readonly (readonly Vec2[])[];
+}
+
 function crossings(ring: readonly Vec2[], [x, y]: Vec2): number {
   let count = 0;
   let previous = ring.at(-1);
@@ -57,8 +63,7 @@ function crossings(ring: readonly Vec2[], [x, y]: Vec2): number {
 }
 
 /** Whether `point` is in the filled part of `polygon`: even-odd over the exterior and the holes. */
-export function insidePolygon(polygon: Polygon, point: Vec2): boolean {
-  let count = crossings(polygon.exterior, point);
-  for (const hole of polygon.holes) count += crossings(hole, point);
-  return count % 2 === 1;
+export function insidePolygon({ exterior, holes }: Filled, point: Vec2): boolean {
+  const counts = [exterior, ...holes].map((ring) => crossings(ring, point));
+  return counts.reduce((sum, count) => sum + count) % 2 === 1;
 }

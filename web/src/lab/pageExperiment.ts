@@ -33,7 +33,7 @@ export interface PageExperiment {
   /** Loads a link from this page, such as a preset. */
   open(link: string): Promise<void>;
   /** Dismisses the notice. */
-  forget(): void;
+  readonly forget: () => void;
 }
 
 export function createPageExperiment(lab: Session & Trial & Notices, page: Window): PageExperiment {

@@ -1,6 +1,7 @@
 // A notice at the panel whose control caused it. A hint disappears after some time; an error stays until it is read.
 
 import { Show, createEffect, on, onCleanup, type JSX } from 'solid-js';
+import { CloseButton } from './CloseButton';
 import './NoticeBar.css';
 
 const SHOWN_MS = 7000;
@@ -40,9 +41,7 @@ export function NoticeBar(props: {
         {(now) => (
           <p class="notice" data-tone={now().tone}>
             <span>{now().text}</span>
-            <button type="button" class="bare" aria-label="Dismiss" onClick={dismiss}>
-              ×
-            </button>
+            <CloseButton label="Dismiss" onClose={dismiss} />
           </p>
         )}
       </Show>

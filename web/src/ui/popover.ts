@@ -1,6 +1,7 @@
 // A popover below a button. It closes on Escape, on a press elsewhere, and when the focus leaves it.
 
-import { createEffect, createSignal, onCleanup } from 'solid-js';
+import { createEffect, createSignal } from 'solid-js';
+import { listen } from './listen';
 
 export function createPopover(box: () => HTMLElement, button: () => HTMLButtonElement) {
   const [open, setOpen] = createSignal(false);
@@ -12,17 +13,12 @@ export function createPopover(box: () => HTMLElement, button: () => HTMLButtonEl
       // A press that closes the popover must not set a goal. Buttons still get the click.
       event.stopPropagation();
     };
-    const onKey = (event: KeyboardEvent): void => {
+    listen('pointerdown', onDown, { capture: true });
+    listen('keydown', (event) => {
       if (event.key !== 'Escape') return;
       // The focused element is about to be removed.
       if (box().contains(document.activeElement)) button().focus();
       setOpen(false);
-    };
-    document.addEventListener('pointerdown', onDown, true);
-    document.addEventListener('keydown', onKey);
-    onCleanup(() => {
-      document.removeEventListener('pointerdown', onDown, true);
-      document.removeEventListener('keydown', onKey);
     });
   });
   return {

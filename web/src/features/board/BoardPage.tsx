@@ -1,18 +1,11 @@
 // The page `/board`: the board of a challenge, large enough for a projector.
 
-import {
-  Show,
-  createEffect,
-  createMemo,
-  createSignal,
-  onCleanup,
-  onMount,
-  type JSX,
-} from 'solid-js';
+import { Show, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
 import { playQuery } from '../../lab/challenges';
 import { loggedOut } from '../../net/access';
 import type { ChallengeReport, Challenges, ChallengeSummary } from '../../net/protocol.gen';
 import { counted, fixed } from '../../ui/format';
+import { listen } from '../../ui/listen';
 import { createTheme } from '../../ui/theme';
 import { BoardChoices } from './BoardChoices';
 import { BoardTable } from './BoardTable';
@@ -38,7 +31,7 @@ const LIST_MS = 15_000;
 
 export function BoardPage(): JSX.Element {
   createTheme();
-  const list = createPoll<Challenges>('/api/challenges', () => LIST_MS);
+  const list = createPoll<Challenges>('/api/challenges', LIST_MS);
   const all = (): readonly ChallengeSummary[] => list.data()?.challenges ?? [];
   const [chosen, setChosen] = createSignal(chosenIn(window.location.search));
   const name = createMemo(() => chosen().challenge ?? easyOfToday(all()));
@@ -46,7 +39,7 @@ export function BoardPage(): JSX.Element {
     const now = name();
     return now === undefined ? undefined : createBoard(now);
   });
-  const report = (): ChallengeReport | undefined => live()?.report();
+  const report = (): ChallengeReport | undefined => live()?.data();
   const summary = createMemo(() => all().find((one) => one.name === name()));
   const classes = createMemo(() => classesOf(report()?.board ?? [], chosen().ofClass));
   const rows = createMemo<readonly Row[]>((before) => {
@@ -66,15 +59,7 @@ export function BoardPage(): JSX.Element {
     window.history.pushState(null, '', boardAddress(next));
     setChosen(next);
   };
-  const goBack = (): void => {
-    setChosen(chosenIn(window.location.search));
-  };
-  onMount(() => {
-    window.addEventListener('popstate', goBack);
-  });
-  onCleanup(() => {
-    window.removeEventListener('popstate', goBack);
-  });
+  listen('popstate', () => setChosen(chosenIn(window.location.search)));
 
   return (
     <main class="board-page">
@@ -136,21 +121,19 @@ function Head(props: {
   rules: string;
   news: string;
 }): JSX.Element {
+  const address = (name: string): string =>
+    `${window.location.origin}${addressOf('/')}${playQuery(name)}`;
   return (
     <header class="board-head">
       <h1>{props.title}</h1>
       <p class="board-rules">{props.rules}</p>
       <p class="board-play">
         <Show when={props.name}>
-          {(name) => {
-            const address = (): string =>
-              `${window.location.origin}${addressOf('/')}${playQuery(name())}`;
-            return (
-              <>
-                Play: <a href={address()}>{address()}</a>
-              </>
-            );
-          }}
+          {(name) => (
+            <>
+              Play: <a href={address(name())}>{address(name())}</a>
+            </>
+          )}
         </Show>
       </p>
       <p class="board-news" role="status">
@@ -165,49 +148,42 @@ function Problem(props: {
   hasBoard: boolean;
   hasList: boolean;
 }): JSX.Element {
+  const advice = (): string =>
+    props.hasBoard
+      ? 'The board is the last one that the server has sent.'
+      : props.hasList
+        ? 'Choose a challenge above.'
+        : '';
   return (
-    <>
-      <Show when={loggedOut()}>
+    <Show
+      when={!loggedOut()}
+      fallback={
         <p>
           The login has ended. <a href="">Log in again</a>
         </p>
+      }
+    >
+      <Show when={props.why}>
+        <p>{props.why}</p>
+        <Show when={advice()}>{(words) => <p>{words()}</p>}</Show>
       </Show>
-      <Show when={!loggedOut() && props.why}>
-        {(why) => (
-          <>
-            <p>{why()}</p>
-            <Show when={props.hasBoard}>
-              <p>The board is the last one that the server has sent.</p>
-            </Show>
-            <Show when={!props.hasBoard && props.hasList}>
-              <p>Choose a challenge above.</p>
-            </Show>
-          </>
-        )}
-      </Show>
-    </>
+    </Show>
   );
 }
 
 function Empty(props: { ofClass: string | undefined }): JSX.Element {
+  const ofClass = (before: string): string =>
+    props.ofClass === undefined ? '' : `${before} ${shownName(props.ofClass)}`;
   return (
     <section class="board-empty">
-      <h2>
-        {props.ofClass === undefined
-          ? 'No attempt is on this board yet'
-          : `No attempt of class ${shownName(props.ofClass)} is on this board yet`}
-      </h2>
+      <h2>No attempt{ofClass(' of class')} is on this board yet</h2>
       <ol>
         <li>Open the address above in a browser.</li>
         <li>
           Steer the magnet and roll the bead to the goal. The ghosts of the controllers run beside
           you.
         </li>
-        <li>
-          Enter your name
-          {props.ofClass === undefined ? '' : ` and the class ${shownName(props.ofClass)}`}, and put
-          your attempt on the board.
-        </li>
+        <li>Enter your name{ofClass(' and the class')}, and put your attempt on the board.</li>
       </ol>
     </section>
   );

@@ -1,9 +1,37 @@
 // The table of a board.
 
 import { For, createMemo, on, type JSX } from 'solid-js';
+import { Dynamic } from 'solid-js/web';
 import { seconds } from '../../ui/format';
 import { type Row, when } from './entries';
 import { shownName } from '../../ui/name';
+
+/** A name, which may be cut off. */
+const named = (name: string): JSX.Element => <span title={shownName(name)}>{shownName(name)}</span>;
+
+const NAME = 'Player';
+const COLUMNS: readonly (readonly [
+  head: string,
+  classes: string,
+  cell: (row: Row, now: Date) => JSX.Element,
+])[] = [
+  ['Place', 'number board-place', ({ place }) => place],
+  [NAME, 'board-player', ({ entry }) => named(entry.player)],
+  ['Class', 'board-class', ({ entry }) => named(entry.class ?? '')],
+  ['Total', 'number board-total', ({ entry }) => seconds(entry.total_s)],
+  ['Time', 'number board-time', ({ time_s }) => seconds(time_s)],
+  ['Wall stops', 'number board-walls', ({ entry }) => entry.score.walls],
+  ['Lost beads', 'number board-lost', ({ entry }) => entry.score.lost_beads],
+  [
+    'When',
+    'number board-when',
+    ({ entry }, now) => (
+      <time dateTime={entry.at} title={new Date(entry.at).toLocaleString()}>
+        {when(entry.at, now)}
+      </time>
+    ),
+  ],
+];
 
 /** The roles are explicit because a phone shows each row as a block, which would remove them. */
 export function BoardTable(props: {
@@ -24,62 +52,35 @@ export function BoardTable(props: {
       <caption class="visually-hidden">Board of {props.name}, the best attempt first</caption>
       <thead role="rowgroup">
         <tr role="row">
-          <th role="columnheader" scope="col" class="number">
-            Place
-          </th>
-          <th role="columnheader" scope="col">
-            Player
-          </th>
-          <th role="columnheader" scope="col">
-            Class
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            Total
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            Time
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            Wall stops
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            Lost beads
-          </th>
-          <th role="columnheader" scope="col" class="number">
-            When
-          </th>
+          <For each={COLUMNS}>
+            {([head, classes]) => (
+              <th
+                role="columnheader"
+                scope="col"
+                classList={{ number: classes.startsWith('number') }}
+              >
+                {head}
+              </th>
+            )}
+          </For>
         </tr>
       </thead>
       <tbody role="rowgroup">
         <For each={props.rows}>
-          {({ key, place, entry, time_s }) => (
-            <tr role="row" data-new={props.fresh.has(key) ? '' : undefined}>
-              <td role="cell" class="number board-place">
-                {place}
-              </td>
-              <th role="rowheader" scope="row" class="board-player" title={shownName(entry.player)}>
-                {shownName(entry.player)}
-              </th>
-              <td role="cell" class="board-class" title={shownName(entry.class ?? '')}>
-                {shownName(entry.class ?? '')}
-              </td>
-              <td role="cell" class="number board-total">
-                {seconds(entry.total_s)}
-              </td>
-              <td role="cell" class="number board-time" data-label="Time">
-                {seconds(time_s)}
-              </td>
-              <td role="cell" class="number board-walls" data-label="Wall stops">
-                {entry.score.walls}
-              </td>
-              <td role="cell" class="number board-lost" data-label="Lost beads">
-                {entry.score.lost_beads}
-              </td>
-              <td role="cell" class="number board-when">
-                <time dateTime={entry.at} title={new Date(entry.at).toLocaleString()}>
-                  {when(entry.at, now())}
-                </time>
-              </td>
+          {(row) => (
+            <tr role="row" data-new={props.fresh.has(row.key) ? '' : undefined}>
+              <For each={COLUMNS}>
+                {([head, classes, cell]) => (
+                  <Dynamic
+                    component={head === NAME ? 'th' : 'td'}
+                    role={head === NAME ? 'rowheader' : 'cell'}
+                    class={classes}
+                    data-label={head}
+                  >
+                    {cell(row, now())}
+                  </Dynamic>
+                )}
+              </For>
             </tr>
           )}
         </For>

@@ -1,7 +1,9 @@
 // A resource of the server that is read again and again: the page has no session, whose connection would bring it.
 
 import { createSignal, onCleanup, type Accessor } from 'solid-js';
-import { get } from '../../net/requests';
+import { get, Refusal } from '../../net/requests';
+
+const NOT_FOUND = 404;
 
 export interface Poll<A> {
   /** The newest answer; undefined before the first one. */
@@ -10,24 +12,23 @@ export interface Poll<A> {
   readonly error: Accessor<string | undefined>;
 }
 
-/** Reads `path` until the owner is disposed of, with a pause that may depend on why the last request has no answer. */
-export function createPoll<A>(path: string, pauseMs: (reason?: unknown) => number): Poll<A> {
+/** Reads `path` until the owner is disposed of. A wrong name stays wrong, and is not read again. */
+export function createPoll<A>(path: string, pause_ms: number): Poll<A> {
   const [data, setData] = createSignal<A>();
   const [error, setError] = createSignal<string>();
   let timer: ReturnType<typeof setTimeout> | undefined;
   let isClosed = false;
   const read = async (): Promise<void> => {
-    let failure: unknown;
     try {
       const answer = await get<A>(path);
       if (isClosed) return;
       setData(() => answer);
       setError(undefined);
     } catch (reason) {
-      failure = reason;
       setError(reason instanceof Error ? reason.message : String(reason));
+      if (reason instanceof Refusal && reason.status === NOT_FOUND) return;
     }
-    if (!isClosed) timer = setTimeout(() => void read(), pauseMs(failure));
+    if (!isClosed) timer = setTimeout(() => void read(), pause_ms);
   };
   void read();
   onCleanup(() => {

@@ -21,49 +21,49 @@ function bestWords({ best, entries }: ChallengeSummary): string {
     : 'no player yet';
 }
 
-function Cards(props: {
+function Shelf(props: {
+  lab: Session & Contested;
+  title: string;
   all: readonly ChallengeSummary[];
-  title: (one: ChallengeSummary) => string;
-  isDisabled: boolean;
-  onPlay: (name: string) => void;
 }): JSX.Element {
   return (
-    <ol class="challenge-list">
-      <For each={props.all}>
-        {(one) => (
-          <li>
-            <button
-              type="button"
-              class="challenge-card"
-              disabled={props.isDisabled}
-              onClick={() => {
-                props.onPlay(one.name);
-              }}
-            >
-              <span class="challenge-title">{props.title(one)}</span>
-              <span class="challenge-best number">{bestWords(one)}</span>
-            </button>
-          </li>
-        )}
-      </For>
-    </ol>
+    <section aria-label={props.title}>
+      <h3>{props.title}</h3>
+      <ol class="challenge-list">
+        <For each={props.all}>
+          {(one) => (
+            <li>
+              <button
+                type="button"
+                class="challenge-card"
+                disabled={!props.lab.canOperate()}
+                onClick={() => void props.lab.contest.play(one.name)}
+              >
+                <span class="challenge-title">
+                  {one.period ? DIFFICULTY_LABELS[one.difficulty] : challengeTitle(one.name)}
+                </span>
+                <span class="challenge-best number">{bestWords(one)}</span>
+              </button>
+            </li>
+          )}
+        </For>
+      </ol>
+    </section>
   );
 }
 
 /** Any seed: who uses the same one gets the same trial. */
-function OwnSeed(props: { isDisabled: boolean; onPlay: (name: string) => void }): JSX.Element {
+function OwnSeed(props: { lab: Session & Contested }): JSX.Element {
   const [difficulty, setDifficulty] = createSignal<DifficultyName>('easy');
   const [seed, setSeed] = createSignal('');
   const word = (): string => seed().trim().toLowerCase();
   return (
     <Form
       class="challenge-fields"
-      send={() => {
-        props.onPlay(`${difficulty()}-${word()}`);
-      }}
+      send={() => props.lab.contest.play(`${difficulty()}-${word()}`)}
       button="Play this"
       buttonClass="small"
-      disabled={props.isDisabled}
+      disabled={!props.lab.canOperate()}
     >
       <ChoiceField
         label="Difficulty"
@@ -87,9 +87,6 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
   const { lab } = props;
   const of = (period: Period | null): readonly ChallengeSummary[] =>
     (lab.catalog.challenges() ?? []).filter((one) => one.period === period);
-  const play = (name: string): void => {
-    void lab.contest.play(name);
-  };
   return (
     <>
       <p>
@@ -101,32 +98,14 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
       </Show>
       <div class="challenge-columns">
         <For each={ORDER}>
-          {(period) => (
-            <section aria-label={PERIOD_LABELS[period]}>
-              <h3>{PERIOD_LABELS[period]}</h3>
-              <Cards
-                all={of(period)}
-                title={(one) => DIFFICULTY_LABELS[one.difficulty]}
-                isDisabled={!lab.canOperate()}
-                onPlay={play}
-              />
-            </section>
-          )}
+          {(period) => <Shelf lab={lab} title={PERIOD_LABELS[period]} all={of(period)} />}
         </For>
         <section aria-label="Your own">
           <h3>Your own</h3>
-          <OwnSeed isDisabled={!lab.canOperate()} onPlay={play} />
+          <OwnSeed lab={lab} />
         </section>
         <Show when={of(null).length > 0}>
-          <section aria-label="Earlier">
-            <h3>Earlier</h3>
-            <Cards
-              all={of(null)}
-              title={(one) => challengeTitle(one.name)}
-              isDisabled={!lab.canOperate()}
-              onPlay={play}
-            />
-          </section>
+          <Shelf lab={lab} title="Earlier" all={of(null)} />
         </Show>
       </div>
       <p>

@@ -1,12 +1,9 @@
 // The list of challenges, or the one that is being played.
 
 import { Show, type JSX } from 'solid-js';
-import type { Contested, Notices, Session, Trial } from '../../lab/slices';
 import { ChallengeList } from './ChallengeList';
-import { PlayView } from './PlayView';
+import { PlayView, type ChallengeLab } from './PlayView';
 import './challenge.css';
-
-export type ChallengeLab = Session & Trial & Contested & Notices;
 
 export function ChallengePanel(props: { lab: ChallengeLab }): JSX.Element {
   const { lab } = props;

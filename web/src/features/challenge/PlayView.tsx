@@ -2,9 +2,9 @@
 
 import { For, Show, createMemo, type JSX } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
-import { boardPath, playQuery } from '../../lab/challenges';
+import { boardPath, ghostName, playQuery } from '../../lab/challenges';
 import { isOver } from '../../lab/contest';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { Contested, Session, Trial } from '../../lab/slices';
 import type {
   AttemptStanding,
   BoardEntry,
@@ -12,13 +12,15 @@ import type {
   GhostMessage,
 } from '../../net/protocol.gen';
 import { seconds } from '../../ui/format';
-import type { ChallengeLab } from './ChallengePanel';
 import { OwnSession } from './OwnSession';
 import { SignForm } from './SignForm';
-import { DIFFICULTY_HELP, challengeTitle, ghostName, lossWords, sumWords, verdict } from './words';
+import { DIFFICULTY_HELP, challengeTitle, lossWords, sumWords, verdict } from './words';
 import { shownName } from '../../ui/name';
 import { addressOf } from '../../net/base';
 
+export type ChallengeLab = Session & Trial & Contested;
+
+/** Lines of the board. */
 const LINES = 5;
 
 function Rules(props: { rules: ChallengeReport }): JSX.Element {
@@ -43,18 +45,17 @@ function Race(props: {
   attempt: AttemptStanding | undefined;
 }): JSX.Element {
   const lines = createMemo(() => {
-    const own = props.attempt;
-    const all = props.ghosts.map((ghost) => ({
-      name: ghostName(ghost),
-      colour: ghost.controller,
-      total_s: ghost.total_s,
-      isOwn: false,
-    }));
-    if (own && isOver(own)) {
-      const total_s = own.is_delivered ? own.total_s : null;
-      all.push({ name: 'This attempt', colour: 'you', total_s, isOwn: true });
-    }
-    return all.sort((a, b) => (a.total_s ?? Infinity) - (b.total_s ?? Infinity));
+    const all = props.ghosts.map((ghost) => ({ ...ghost, name: ghostName(ghost), isOwn: false }));
+    const { attempt } = props;
+    const own = attempt && {
+      name: 'This attempt',
+      controller: 'you' as const,
+      total_s: attempt.is_delivered ? attempt.total_s : null,
+      isOwn: true,
+    };
+    return [...all, ...(own ? [own] : [])].sort(
+      (a, b) => (a.total_s ?? Infinity) - (b.total_s ?? Infinity),
+    );
   });
   return (
     <table class="challenge-race">
@@ -64,7 +65,7 @@ function Race(props: {
           {(line) => (
             <tr classList={{ own: line.isOwn }}>
               <th scope="row">
-                <span class="swatch" style={{ background: `var(--${line.colour})` }} />
+                <span class="swatch" style={{ background: `var(--${line.controller})` }} />
                 {line.name}
               </th>
               <td class="number">
@@ -102,42 +103,31 @@ function Board(props: { board: readonly BoardEntry[] }): JSX.Element {
 function Result(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.Element {
   const { lab } = props;
   const { contest } = lab;
-  const loss = createMemo(() => {
+  const loss = (): string => {
     const [report, scene] = [contest.report(), lab.scene()];
-    if (!report?.loss || !scene) return undefined;
-    const { compared_with } = report;
-    const other = compared_with === null ? undefined : CONTROLLER_LABELS[compared_with];
-    return { ...report.loss, words: lossWords(report.loss, other, scene.tick_s) };
-  });
+    if (!report || !scene) return 'Comparing with the ghosts…';
+    return report.loss
+      ? lossWords(report.loss, report.compared_with, scene.tick_s)
+      : 'No part of the way took much longer than needed.';
+  };
   return (
     <section class="challenge-result" aria-label="Result">
       <p class="challenge-verdict">{verdict(props.attempt, contest.report(), contest.ghosts())}</p>
       <Show when={props.attempt.is_delivered && contest.challenge()}>
         {(rules) => <p class="number">{sumWords(props.attempt, rules())}</p>}
       </Show>
-      <Show
-        when={loss()}
-        fallback={
-          <p>
-            {contest.report()
-              ? 'No part of the way took much longer than needed.'
-              : 'Comparing with the ghosts…'}
-          </p>
-        }
-      >
+      <p>{loss()}</p>
+      <Show when={contest.report()?.loss}>
         {(lost) => (
-          <>
-            <p>{lost().words}</p>
-            <CommandButton
-              lab={lab}
-              at="playback"
-              class="small"
-              title="Rewinds the session to the beginning of this time. The attempt stays as it is."
-              command={() => ({ type: 'rewind', tick: lost().from_tick })}
-            >
-              Show this moment
-            </CommandButton>
-          </>
+          <CommandButton
+            lab={lab}
+            at="playback"
+            class="small"
+            title="Rewinds the session to the beginning of this time. The attempt stays as it is."
+            command={() => ({ type: 'rewind', tick: lost().from_tick })}
+          >
+            Show this moment
+          </CommandButton>
         )}
       </Show>
       <Show when={props.attempt.is_delivered && contest.report()?.attempt}>

@@ -5,6 +5,7 @@ import { VOIDS } from '../../words/facts';
 import { CommandButton } from '../../lab/CommandButton';
 import { isOver } from '../../lab/contest';
 import type { ByHand, Contested, OpenTab, Session, Trial } from '../../lab/slices';
+import type { AttemptStanding } from '../../net/protocol.gen';
 import { seconds } from '../../ui/format';
 import { challengeTitle, penaltyWords, verdict } from './words';
 import './stage.css';
@@ -14,24 +15,6 @@ type StageLab = Session & Trial & Contested & OpenTab & ByHand;
 /** The tab may be open already, scrolled to another place. */
 function showResult(): void {
   document.querySelector('.challenge-result')?.scrollIntoView({ block: 'nearest' });
-}
-
-function Again(props: { lab: StageLab; isPrimary: boolean }): JSX.Element {
-  const { lab } = props;
-  return (
-    <CommandButton
-      lab={lab}
-      at="playback"
-      class="small"
-      classList={{ primary: props.isPrimary }}
-      command={() => {
-        const challenge = lab.contest.name();
-        return challenge === undefined ? undefined : { type: 'play_challenge', challenge };
-      }}
-    >
-      Try again
-    </CommandButton>
-  );
 }
 
 export function StageBar(props: {
@@ -48,10 +31,30 @@ export function StageBar(props: {
       lab.state()?.running === false &&
       lab.state()?.attempt?.void === null,
   );
-  const isRewound = (): boolean => {
+  /** What an attempt is that cannot be gone on with. */
+  const past = (attempt: AttemptStanding): string | undefined => {
     const state = lab.state();
-    return state !== undefined && state.tick < state.newest_tick;
+    if (attempt.void) return `This attempt does not count: ${VOIDS[attempt.void.code]}.`;
+    if (!state || !isOver(attempt)) return undefined;
+    if (state.running) return 'The attempt is over. What happens now does not count.';
+    return state.tick < state.newest_tick
+      ? 'This is a moment of your attempt. Drag the timeline below to see the rest; what you do from here does not count.'
+      : undefined;
   };
+  const Again = (own: { isPrimary: boolean }): JSX.Element => (
+    <CommandButton
+      lab={lab}
+      at="playback"
+      class="small"
+      classList={{ primary: own.isPrimary }}
+      command={() => {
+        const challenge = contest.name();
+        return challenge === undefined ? undefined : { type: 'play_challenge', challenge };
+      }}
+    >
+      Try again
+    </CommandButton>
+  );
   const start = (): void => {
     void lab.send('playback', { type: 'run' });
   };
@@ -65,24 +68,13 @@ export function StageBar(props: {
       {(attempt) => (
         <section class="contest" aria-label="Challenge">
           <Switch>
-            <Match when={attempt().void}>
-              {(why) => (
+            <Match when={past(attempt())}>
+              {(words) => (
                 <>
-                  <p role="status">This attempt does not count: {VOIDS[why().code]}.</p>
-                  <Again lab={lab} isPrimary />
+                  <p role="status">{words()}</p>
+                  <Again isPrimary={attempt().void !== null || lab.state()?.running === true} />
                 </>
               )}
-            </Match>
-            <Match when={isOver(attempt()) && lab.state()?.running}>
-              <p role="status">The attempt is over. What happens now does not count.</p>
-              <Again lab={lab} isPrimary />
-            </Match>
-            <Match when={isOver(attempt()) && isRewound()}>
-              <p role="status">
-                This is a moment of your attempt. Drag the timeline below to see the rest; what you
-                do from here does not count.
-              </p>
-              <Again lab={lab} isPrimary={false} />
             </Match>
             <Match when={isOver(attempt())}>
               <p role="status">
@@ -91,7 +83,7 @@ export function StageBar(props: {
                 </strong>{' '}
                 {verdict(attempt(), contest.report(), contest.ghosts())}
               </p>
-              <Again lab={lab} isPrimary={false} />
+              <Again isPrimary={false} />
               <button
                 type="button"
                 class="small primary"

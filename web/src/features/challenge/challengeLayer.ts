@@ -9,7 +9,7 @@ import { drawGhost, drawLabel } from '../../plan/drawGhost';
 import type { LayerContext, MapLayer } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
 import { seconds } from '../../ui/format';
-import { ghostName } from './words';
+import { ghostName } from '../../lab/challenges';
 
 const LOSS_PX = 13;
 /** The base map is drawn again for each of these. */

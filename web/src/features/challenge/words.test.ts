@@ -76,10 +76,10 @@ describe('an attempt', () => {
       lost_beads: 1,
       disturbances: 0,
     };
-    expect(lossWords(loss, 'RL', 0.008)).toBe(
+    expect(lossWords(loss, 'rl', 0.008)).toBe(
       'Most time was lost from 4.0 s to 8.0 s: 2.5 s more than RL needed for this part of the way. In this time a wall stopped the magnet twice and the bead was lost once.',
     );
     const idle = { ...loss, walls: 0, lost_beads: 0 };
-    expect(lossWords(idle, undefined, 0.008)).toContain('the magnet waited');
+    expect(lossWords(idle, null, 0.008)).toContain('the magnet waited');
   });
 });

@@ -1,18 +1,18 @@
 // What the page says about a challenge and an attempt. Pure.
 
-import { DIFFICULTY_LABELS } from '../../lab/challenges';
+import { DIFFICULTY_LABELS, ghostName } from '../../lab/challenges';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type {
   AttemptReport,
   AttemptStanding,
   ChallengeReport,
+  ControllerName,
   DifficultyName,
   GhostMessage,
   Ghosts,
   LossMessage,
 } from '../../net/protocol.gen';
 import { centimetres, counted, seconds } from '../../ui/format';
-import { shownName } from '../../ui/name';
 
 export const DIFFICULTY_HELP: Readonly<Record<DifficultyName, string>> = {
   easy: 'Posts. Nothing disturbs.',
@@ -32,9 +32,6 @@ const SEED = /^[a-z0-9-]{1,24}$/;
 /** Why a text is no seed; undefined if it is one. */
 export const seedFault = (text: string): string | undefined =>
   SEED.test(text) ? undefined : 'Use 1 to 24 of a to z, 0 to 9 and -.';
-
-export const ghostName = ({ controller, player }: GhostMessage): string =>
-  player === null ? CONTROLLER_LABELS[controller] : shownName(player);
 
 /** `12.4 s + 2 wall stops × 1 s + 1 lost bead × 5 s`. */
 export function sumWords(attempt: AttemptStanding, rules: ChallengeReport): string {
@@ -60,6 +57,9 @@ export function penaltyWords(
   return `${part(walls, 'wall stop', rules?.wall_s)}, ${part(lost_beads, 'lost bead', rules?.lost_bead_s)}`;
 }
 
+/** `RL, ERRT and Attractor`. */
+const LIST = new Intl.ListFormat('en-GB');
+
 /** Whom the attempt has beaten, in one sentence. Equal times are a win for the ghost. */
 export function verdict(
   attempt: AttemptStanding,
@@ -76,25 +76,20 @@ export function verdict(
     total_s === null || attempt.total_s < total_s;
   const beaten = controllers.filter(isBeaten).map(ghostName);
   const faster = controllers.filter((one) => !isBeaten(one)).map(ghostName);
-  if (faster.length === 0) return `You beat ${listed(beaten)}.`;
+  if (faster.length === 0) return `You beat ${LIST.format(beaten)}.`;
   if (beaten.length === 0)
-    return `${listed(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
-  return `You beat ${listed(beaten)}; ${listed(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
-}
-
-/** `RL, ERRT and Attractor`. */
-function listed(names: readonly string[]): string {
-  const last = names.at(-1) ?? '';
-  return names.length < 2 ? last : `${names.slice(0, -1).join(', ')} and ${last}`;
+    return `${LIST.format(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
+  return `You beat ${LIST.format(beaten)}; ${LIST.format(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
 }
 
 const times = (count: number): string =>
   count === 1 ? 'once' : count === 2 ? 'twice' : `${count} times`;
 
 /** Where the time was lost, and why. */
-export function lossWords(loss: LossMessage, other: string | undefined, tick_s: number): string {
+export function lossWords(loss: LossMessage, other: ControllerName | null, tick_s: number): string {
   const [from, to] = [loss.from_tick, loss.to_tick].map((tick) => seconds(tick * tick_s));
-  const against = other === undefined ? 'than the magnet’s speed allows' : `than ${other} needed`;
+  const against =
+    other === null ? 'than the magnet’s speed allows' : `than ${CONTROLLER_LABELS[other]} needed`;
   const causes = [
     loss.walls > 0 ? `a wall stopped the magnet ${times(loss.walls)}` : '',
     loss.lost_beads > 0 ? `the bead was lost ${times(loss.lost_beads)}` : '',
@@ -103,6 +98,6 @@ export function lossWords(loss: LossMessage, other: string | undefined, tick_s: 
   const why =
     causes.length === 0
       ? 'Nothing happened to the bead: the magnet waited, or took a longer way.'
-      : `In this time ${listed(causes)}.`;
+      : `In this time ${LIST.format(causes)}.`;
   return `Most time was lost from ${from ?? ''} to ${to ?? ''}: ${seconds(loss.lost_s)} more ${against} for this part of the way. ${why}`;
 }

@@ -10,7 +10,7 @@ import { isLedFromOutside } from '../../lab/outside';
 import { ParameterForm } from './ParameterForm';
 import { SwitchingLaw } from './SwitchingLaw';
 import type { Notices, Session, Trial } from '../../lab/slices';
-import { createPending, type Pending } from '../../ui/pending';
+import { createPending } from '../../ui/pending';
 import { shownName } from '../../ui/name';
 import './ControllerPanel.css';
 
@@ -21,31 +21,6 @@ interface Choice {
 }
 
 const keyOf = ({ controller, program }: Choice): string => program ?? controller;
-
-function ControllerRadio(props: {
-  lab: Session;
-  choice: Choice;
-  chosen: Pending<Choice>;
-}): JSX.Element {
-  const { lab } = props;
-  const isChosen = (): boolean => keyOf(props.chosen.value()) === keyOf(props.choice);
-  return (
-    <label title={CONTROLLER_HELP[props.choice.controller]}>
-      <input
-        type="radio"
-        name="controller"
-        value={keyOf(props.choice)}
-        checked={isChosen()}
-        aria-busy={isChosen() && props.chosen.isPending()}
-        disabled={!lab.canOperate()}
-        onChange={() => {
-          props.chosen.choose(props.choice);
-        }}
-      />
-      {shownName(props.choice.program ?? CONTROLLER_LABELS[props.choice.controller])}
-    </label>
-  );
-}
 
 function ControllerChoice(props: {
   lab: Session & Trial;
@@ -64,9 +39,23 @@ function ControllerChoice(props: {
     },
     (choice) => lab.send('controller', { type: 'select_controller', ...choice }),
   );
-  const radio = (choice: Choice): JSX.Element => (
-    <ControllerRadio lab={lab} choice={choice} chosen={chosen} />
-  );
+  const radio = (choice: Choice): JSX.Element => {
+    const isChosen = (): boolean => keyOf(chosen.value()) === keyOf(choice);
+    return (
+      <label title={CONTROLLER_HELP[choice.controller]}>
+        <input
+          type="radio"
+          name="controller"
+          value={keyOf(choice)}
+          checked={isChosen()}
+          aria-busy={isChosen() && chosen.isPending()}
+          disabled={!lab.canOperate()}
+          onChange={() => chosen.choose(choice)}
+        />
+        {shownName(choice.program ?? CONTROLLER_LABELS[choice.controller])}
+      </label>
+    );
+  };
   return (
     <fieldset class="choice" role="radiogroup" aria-label="Controller">
       <For each={props.names}>{(controller) => radio({ controller })}</For>

@@ -1,6 +1,6 @@
 // The switching law as a diagram: the tracked bead, the comparison with T, the two sub-controllers.
 
-import { Show, type JSX } from 'solid-js';
+import { For, Show, type JSX } from 'solid-js';
 import { centimetres, fixed, newtons } from '../../ui/format';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type {
@@ -34,36 +34,47 @@ function ruleText(parameters: Parameters): string {
     : `1→2 at e ≤ ${centimetres(parameters.fetch_radius_m)}, 2→1 at e > T = ${threshold}`;
 }
 
-function Block(props: {
-  y: number;
-  name: string;
-  does: string;
-  help: string;
-  active: boolean;
-  mode: 1 | 2;
-}): JSX.Element {
+/** The two sub-controllers, and where the wires to and from them are. */
+const BRANCHES = [
+  { mode: 1, top: 6, into: 'M100 25h10', lever: 'M83 52 100 25', out: 'M228 25h9v20h7' },
+  { mode: 2, top: 60, into: 'M100 79h10', lever: 'M83 52 100 79', out: 'M228 79h9v-20h7' },
+] as const;
+
+type Branch = (typeof BRANCHES)[number];
+
+function SubController(props: Props & { branch: Branch }): JSX.Element {
+  const { mode, top, into, lever, out } = props.branch;
+  const isActive = (): boolean => props.state.mode === mode;
+  const does = (): string =>
+    mode === 1 ? 'fetch the bead' : `transport: ${CONTROLLER_LABELS[props.state.controller]}`;
+  const wire = (): string => (isActive() ? `wire active m${mode}` : 'wire');
   return (
-    <g
-      class="block"
-      classList={{ active: props.active }}
-      data-mode={props.mode}
-      data-active={props.active ? 'true' : 'false'}
-    >
-      <title>{props.help}</title>
-      <rect x="112" y={props.y} width="116" height="38" rx="5" />
-      <text class="name" x="170" y={props.y + 16}>
-        {props.name}
-      </text>
-      <text class="does" x="170" y={props.y + 30}>
-        {props.does}
-      </text>
-    </g>
+    <>
+      <g
+        class="block"
+        classList={{ active: isActive() }}
+        data-mode={mode}
+        data-active={isActive() ? 'true' : 'false'}
+      >
+        <title>{TERMS[`sub-controller ${mode}`]}</title>
+        <rect x="112" y={top} width="116" height="38" rx="5" />
+        <text class="name" x="170" y={top + 16}>
+          Sub-controller {mode}
+        </text>
+        <text class="does" x="170" y={top + 30}>
+          {does()}
+        </text>
+      </g>
+      <path class={wire()} d={into} />
+      <path class={wire()} d={out} marker-end="url(#arrow)" />
+      <Show when={isActive()}>
+        <path class="lever" data-mode={mode} d={lever} />
+      </Show>
+    </>
   );
 }
 
 function Diagram(props: Props & { positioner: PositionerKind }): JSX.Element {
-  const first = (): boolean => props.state.mode === 1;
-  const literal = (): boolean => props.parameters.switching_law === 'literal';
   return (
     <svg
       class="law"
@@ -91,46 +102,12 @@ function Diagram(props: Props & { positioner: PositionerKind }): JSX.Element {
           {props.positioner === 'arm' ? 'arm' : 'stage'}
         </text>
       </g>
-      <Block
-        y={6}
-        name="Sub-controller 1"
-        does="fetch the bead"
-        help={TERMS['sub-controller 1']}
-        active={first()}
-        mode={1}
-      />
-      <Block
-        y={60}
-        name="Sub-controller 2"
-        does={`transport: ${CONTROLLER_LABELS[props.state.controller]}`}
-        help={TERMS['sub-controller 2']}
-        active={!first()}
-        mode={2}
-      />
       <path class="wire" d="M63 52h18" />
       <circle class="pivot" cx="83" cy="52" r="3" />
-      <path class="wire" classList={{ active: first(), m1: first() }} d="M100 25h10" />
-      <path class="wire" classList={{ active: !first(), m2: !first() }} d="M100 79h10" />
-      <path
-        class="lever"
-        data-mode={props.state.mode}
-        d={first() ? 'M83 52 100 25' : 'M83 52 100 79'}
-      />
-      <path
-        class="wire"
-        classList={{ active: first(), m1: first() }}
-        d="M228 25h9v20h7"
-        marker-end="url(#arrow)"
-      />
-      <path
-        class="wire"
-        classList={{ active: !first(), m2: !first() }}
-        d="M228 79h9v-20h7"
-        marker-end="url(#arrow)"
-      />
+      <For each={BRANCHES}>{(branch) => <SubController {...props} branch={branch} />}</For>
       <path class="wire back" d="M262 71v44H32v-42" marker-end="url(#arrow)" />
       <text class="does" x="147" y="111">
-        {literal() ? 'literal law' : 'magnet, bead, tracker'}
+        {props.parameters.switching_law === 'literal' ? 'literal law' : 'magnet, bead, tracker'}
       </text>
     </svg>
   );
@@ -139,11 +116,12 @@ function Diagram(props: Props & { positioner: PositionerKind }): JSX.Element {
 function Gauge(props: Props): JSX.Element {
   const at = (value_m: number): number =>
     GAUGE_LEFT + Math.min(1, Math.max(0, value_m / GAUGE_FULL_M)) * GAUGE_WIDTH;
+  const threshold = (): number => at(props.parameters.threshold_m);
   const fetch = (): number =>
     props.parameters.switching_law === 'literal'
-      ? at(props.parameters.threshold_m)
+      ? threshold()
       : at(props.parameters.fetch_radius_m);
-  const threshold = (): number => at(props.parameters.threshold_m);
+  const needle = (): number => at(props.state.tracked_error_m);
   return (
     <svg class="gauge" viewBox="0 0 280 22" aria-hidden="true">
       <rect class="zone m2" x={GAUGE_LEFT} y="8" width={fetch() - GAUGE_LEFT} height="6" />
@@ -159,7 +137,7 @@ function Gauge(props: Props): JSX.Element {
       <path
         class="needle"
         data-mode={props.state.mode}
-        d={`M${at(props.state.tracked_error_m)} 8l-5-8h10zM${at(props.state.tracked_error_m)} 14l-5 8h10z`}
+        d={`M${needle()} 8l-5-8h10zM${needle()} 14l-5 8h10z`}
       />
     </svg>
   );

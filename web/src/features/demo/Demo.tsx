@@ -1,8 +1,8 @@
 // The demonstration: runs the programme, shows its captions, and gives way to a visitor.
 
-import { Show, createEffect, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
-import { experimentFrom, type Known, loadMessage } from '../../lab/experimentLink';
+import { Show, createEffect, createSignal, on, onCleanup, type JSX } from 'solid-js';
 import { knownBy } from '../../lab/known';
+import { loadLink } from '../../lab/loadTrial';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { Answer } from '../../lab/commands';
 import { isOver } from '../../lab/contest';
@@ -12,7 +12,6 @@ import type { ControllerName } from '../../net/protocol.gen';
 import {
   CARRIERS,
   PROGRAMME,
-  type Part,
   SILENCE_MS,
   afterCue,
   challengeOf,
@@ -27,6 +26,7 @@ import {
   visitorCaption,
   watchedCaption,
 } from './programme';
+import { listen } from '../../ui/listen';
 import './demo.css';
 import { pathOf } from '../../net/base';
 
@@ -50,8 +50,8 @@ export function Demo(props: {
   const [place, setPlace] = createSignal(startOf(0, nowMs()));
   /** When a visitor last touched the screen; undefined while the programme runs. */
   const [touched_ms, setTouched] = createSignal<number>();
-  /** Number of the trial of the present part, after the server has set it up; undefined until it is requested. */
-  let own: Promise<Answer> | number | undefined;
+  /** The trial of the present part; undefined until it is requested. */
+  let own: Promise<Answer | undefined> | number | undefined;
   let hasAsked = false;
   let reload_ms: number | undefined;
 
@@ -69,30 +69,18 @@ export function Demo(props: {
   });
 
   const run = (): void => void lab.send('workspace', { type: 'run' });
-  const play = (): Promise<Answer> => {
-    const played = lab.contest.play(challengeOf(new Date()));
-    run();
-    return played;
-  };
+  const play = (): Promise<Answer> => lab.contest.play(challengeOf(new Date()));
   const isContest = (): boolean => PROGRAMME[place().part]?.link === undefined;
 
-  const load = ({ link, speed }: Part, known: Known): Promise<Answer> => {
-    if (link === undefined) return play();
-    const read = experimentFrom(link, known);
-    if (read.kind !== 'experiment') throw new Error(`the programme has a broken link: ${link}`);
-    const loaded = lab.send('workspace', loadMessage(read.experiment, known.defaults));
-    void lab.send('workspace', { type: 'set_speed', factor: speed });
-    run();
-    return loaded;
-  };
   const setUp = async (): Promise<void> => {
-    const [known, part] = [knownBy(lab), PROGRAMME[place().part]];
-    if (!known || !part) return;
-    const asked = load(part, known);
+    const { link, speed } = PROGRAMME[place().part] ?? {};
+    const asked = link === undefined ? play() : loadLink(lab, 'workspace', link);
     own = asked;
+    if (speed !== undefined) void lab.send('workspace', { type: 'set_speed', factor: speed });
+    run();
     const answer = await asked;
     // A part that was refused is left after its time.
-    if (own === asked && answer.kind === 'done') own = answer.trial;
+    if (own === asked && answer?.kind === 'done') own = answer.trial;
   };
   const begin = (part: number): void => {
     setPlace(startOf(part, nowMs()));
@@ -133,7 +121,7 @@ export function Demo(props: {
       return;
     }
     setPlace(turned(place(), now));
-    if (own === undefined) begin(place().part);
+    if (own === undefined && knownBy(lab)) begin(place().part);
     else if (isPartOver(place(), now)) begin(place().part + 1);
   };
 
@@ -144,45 +132,40 @@ export function Demo(props: {
       if (index === undefined) return;
       const commands = PROGRAMME[place().part]?.cues[index]?.commands ?? [];
       setPlace(afterCue(place(), index));
-      commands.forEach((command) => {
-        void lab.send('workspace', command);
-      });
+      for (const command of commands) void lab.send('workspace', command);
     }),
   );
 
-  onMount(() => {
-    const timer = setInterval(tick, TICK_MS);
-    const listening = new AbortController();
-    const listen = <K extends keyof WindowEventMap>(
-      type: K,
-      listener: (event: WindowEventMap[K]) => void,
-    ): void => {
-      const { signal } = listening;
-      window.addEventListener(type, listener, { capture: true, passive: true, signal });
-    };
-    const touch = (): void => {
-      if (!lab.canOperate()) return;
-      const isFirst = touched_ms() === undefined;
-      setTouched(nowMs());
-      // A visitor begins with the clock; the ghosts have run alone.
-      if (isContest() && (isFirst || isOver(lab.contest.attempt()))) void play();
-      else if (!lab.state()?.running) run();
-    };
-    listen('pointerdown', touch);
-    listen('wheel', touch);
-    listen('pointermove', (event) => {
+  const touch = (): void => {
+    if (!lab.canOperate()) return;
+    const isFirst = touched_ms() === undefined;
+    setTouched(nowMs());
+    // A visitor begins with the clock; the ghosts have run alone.
+    const isNew = isContest() && (isFirst || isOver(lab.contest.attempt()));
+    if (isNew) void play();
+    if (isNew || !lab.state()?.running) run();
+  };
+  const early = { capture: true, passive: true };
+  listen('pointerdown', touch, early);
+  listen('wheel', touch, early);
+  listen(
+    'pointermove',
+    (event) => {
       // A drag that goes on is no silence.
       if (event.buttons !== 0) touch();
-    });
-    listen('keydown', (event) => {
+    },
+    early,
+  );
+  listen(
+    'keydown',
+    (event) => {
       if (event.key === 'Escape') window.location.assign(home);
       else if (isVisitorKey(event)) touch();
-    });
-    onCleanup(() => {
-      clearInterval(timer);
-      listening.abort();
-    });
-  });
+    },
+    early,
+  );
+  const timer = setInterval(tick, TICK_MS);
+  onCleanup(() => clearInterval(timer));
 
   const carrier = (name: ControllerName): string =>
     name === 'you' && touched_ms() === undefined ? 'Ghosts' : CARRIERS[name];

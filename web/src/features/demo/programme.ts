@@ -8,9 +8,8 @@ import type {
   StateMessage,
 } from '../../net/protocol.gen';
 import { seconds } from '../../ui/format';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { ghostName } from '../../lab/challenges';
 import { MAIN, sessionOf } from '../../net/session';
-import { shownName } from '../../ui/name';
 import { addressOf } from '../../net/base';
 
 /** Something that happens when a state fits: a caption, and maybe a command. */
@@ -25,7 +24,8 @@ export interface Part {
   readonly title: string;
   /** The hash of an experiment link; undefined for the easy challenge of the day. */
   readonly link?: string;
-  readonly speed: number;
+  /** Playback speed of the experiment. */
+  readonly speed?: number;
   readonly cues: readonly Cue[];
 }
 
@@ -115,7 +115,6 @@ export const PROGRAMME: readonly Part[] = [
   },
   {
     title: 'A challenge: steer the magnet yourself.',
-    speed: 1,
     cues: [
       { when: ({ sim_time_s }) => sim_time_s > GHOSTS_S, caption: 'Touch the screen to play.' },
     ],
@@ -199,17 +198,10 @@ export const challengeOf = (now: Date): string => `easy-${now.toISOString().slic
 
 /** Who is to be beaten: the best person, otherwise the fastest controller. */
 function rival(ghosts: Ghosts | undefined): { name: string; total_s: number } | undefined {
-  const all = (ghosts?.ghosts ?? []).flatMap(({ player, controller, total_s }) =>
-    total_s === null
-      ? []
-      : [
-          {
-            isPerson: player !== null,
-            name: player === null ? CONTROLLER_LABELS[controller] : shownName(player),
-            total_s,
-          },
-        ],
-  );
+  const all = (ghosts?.ghosts ?? []).flatMap((ghost) => {
+    const { player, total_s } = ghost;
+    return total_s === null ? [] : [{ isPerson: player !== null, name: ghostName(ghost), total_s }];
+  });
   all.sort((a, b) => Number(b.isPerson) - Number(a.isPerson) || a.total_s - b.total_s);
   return all[0];
 }

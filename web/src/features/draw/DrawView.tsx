@@ -1,9 +1,10 @@
 // A map of one's own: drawn here, checked by the server after each change, saved and used.
 
-import { createMemo, onCleanup, type JSX } from 'solid-js';
+import { createMemo, type JSX } from 'solid-js';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import { fixed } from '../../ui/format';
+import { listen } from '../../ui/listen';
 import { createCheck } from './check';
 import { svgText } from './drawing';
 import { createEditor, type Editor } from './editor';
@@ -28,14 +29,8 @@ export function DrawView(props: DrawProps): JSX.Element {
   const editor = (props.kept.editor ??= createEditor());
   const svg = createMemo(() => svgText(editor.editing().drawing));
   const isLive = createMemo(() => props.lab.connection().kind === 'live');
-  const { found, error, isPresent } = createCheck(svg, isLive);
-  const onKeyDown = (event: KeyboardEvent): void => {
-    onUndoKey(editor, event);
-  };
-  document.addEventListener('keydown', onKeyDown);
-  onCleanup(() => {
-    document.removeEventListener('keydown', onKeyDown);
-  });
+  const check = createCheck(svg, isLive);
+  listen('keydown', (event) => onUndoKey(editor, event));
   const place = (): string => {
     const at = editor.pointer();
     return at ? `x ${fixed(at[0] / 1000, 3)} y ${fixed(-at[1] / 1000, 3)} m` : 'x –   y –';
@@ -44,11 +39,7 @@ export function DrawView(props: DrawProps): JSX.Element {
     <main class="view draw">
       <Toolbar editor={editor} helpId={HELP_ID} />
       <section class="panel draw-stage" aria-label="Drawing area">
-        <Surface
-          editor={editor}
-          passages={isPresent() ? (found()?.passages ?? []) : []}
-          helpId={HELP_ID}
-        />
+        <Surface editor={editor} passages={check.found()?.passages ?? []} helpId={HELP_ID} />
         <footer class="panel-foot">
           <p class="hint">Squares of 5 cm. The border is a wall.</p>
           <output class="readout" aria-live="off">
@@ -60,13 +51,7 @@ export function DrawView(props: DrawProps): JSX.Element {
       <SidePanel
         lab={props.lab}
         editor={editor}
-        finish={() => {
-          editor.act({ type: 'finish' });
-          return svg();
-        }}
-        check={found()}
-        error={error()}
-        isChecked={isPresent()}
+        check={check}
         onSave={async (file) => {
           if (await props.open(file)) props.onLaboratory();
         }}

@@ -1,40 +1,20 @@
 // What the server says about the drawing, where it comes from, and where it goes.
 
 import { For, Show, createSignal, type JSX } from 'solid-js';
-import type { MapCheck } from '../../net/protocol.gen';
 import { checkOf, checkOfMap, freeName, mapName, refuseLarge } from '../../lab/maps';
 import type { Session, Trial } from '../../lab/slices';
+import { TextField } from '../../ui/fields/fields';
 import { FileButton } from '../../ui/FileButton';
 import { download } from '../../ui/download';
-import { checkWords } from './check';
-import { BLANK, type Drawing } from './drawing';
+import type { Check } from './check';
+import { BLANK, type Drawing, svgText } from './drawing';
 import type { Editor } from './editor';
 import { drawingOf } from './import';
-
-function Check(props: { check: MapCheck | undefined; error: string | undefined }): JSX.Element {
-  return (
-    <div class="draw-check" role="status" aria-label="Check">
-      <Show when={props.error}>{(error) => <p class="warning">{error()}</p>}</Show>
-      <Show when={props.check}>
-        {(check) => (
-          <For each={checkWords(check())}>
-            {({ text, isWarning }) => <p classList={{ warning: isWarning }}>{text}</p>}
-          </For>
-        )}
-      </Show>
-    </div>
-  );
-}
 
 export function SidePanel(props: {
   lab: Session & Trial;
   editor: Editor;
-  /** The whole drawing, with what was begun. */
-  finish: () => string;
-  check: MapCheck | undefined;
-  error: string | undefined;
-  /** Whether the check is about the present drawing. */
-  isChecked: boolean;
+  check: Check;
   /** Adds the drawing to the server's maps and loads it. */
   onSave: (file: File) => Promise<void>;
 }): JSX.Element {
@@ -43,10 +23,13 @@ export function SidePanel(props: {
   /** Why the last drawing could not be opened. */
   const [refusal, setRefusal] = createSignal<string>();
   const plainName = (): string => mapName(props.editor.name()) || 'map';
-  const fileOf = (name: string): File =>
-    new File([props.finish()], `${name}.svg`, { type: 'image/svg+xml' });
-  const hasRoom = (): boolean => (props.check?.regions ?? 0) > 0;
-  const isOff = (): boolean => !lab.canOperate() || isBusy() || !props.isChecked || !hasRoom();
+  /** The whole drawing, with what was begun. */
+  const fileOf = (name: string): File => {
+    props.editor.act({ type: 'finish' });
+    const svg = svgText(props.editor.editing().drawing);
+    return new File([svg], `${name}.svg`, { type: 'image/svg+xml' });
+  };
+  const hasRoom = (): boolean => (props.check.found()?.regions ?? 0) > 0;
   const take = async (drawing: () => Promise<Drawing>): Promise<void> => {
     setRefusal(undefined);
     setBusy(true);
@@ -62,7 +45,11 @@ export function SidePanel(props: {
   return (
     <section class="panel draw-side" aria-label="Check and use">
       <h2>Check</h2>
-      <Check check={props.check} error={props.error} />
+      <div class="draw-check" role="status" aria-label="Check">
+        <For each={props.check.remarks()}>
+          {({ text, isWarning }) => <p classList={{ warning: isWarning }}>{text}</p>}
+        </For>
+      </div>
       <h2>Begin with</h2>
       <div class="draw-row">
         <select
@@ -103,22 +90,17 @@ export function SidePanel(props: {
         )}
       </Show>
       <h2>Use it</h2>
-      <label class="draw-field">
-        <span>Name</span>
-        <input
-          type="text"
-          value={props.editor.name()}
-          maxLength={34}
-          onInput={(event) => {
-            props.editor.rename(event.currentTarget.value);
-          }}
-        />
-      </label>
+      <TextField
+        label="Name"
+        value={props.editor.name()}
+        maxLength={34}
+        onInput={props.editor.rename}
+      />
       <div class="draw-row">
         <button
           type="button"
           class="primary"
-          disabled={isOff()}
+          disabled={!lab.canOperate() || isBusy() || !hasRoom()}
           title="Adds the drawing to the server's maps and starts a trial on it"
           onClick={() => {
             void props.onSave(fileOf(freeName(plainName(), lab.catalog.maps() ?? [])));

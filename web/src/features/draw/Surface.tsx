@@ -17,7 +17,7 @@ import { type Frame, type Mm, movedInside, pathText, type Shape, withImages } fr
 import type { Editor } from './editor';
 import { pending, shift } from './editing';
 import { onKey } from './keys';
-import { attachPointer } from './pointer';
+import { createPointer } from './pointer';
 
 const GRID_MM = 50;
 const FONT_PX = 12;
@@ -91,11 +91,7 @@ export function Surface(props: {
       frame();
       measure();
     });
-    const detach = attachPointer(svg, editor);
-    onCleanup(() => {
-      observer.disconnect();
-      detach();
-    });
+    onCleanup(() => observer.disconnect());
   });
   const shapes = createMemo(() => editor.editing().drawing.shapes);
   const by = createMemo(() => shift(editor.editing()));
@@ -108,6 +104,10 @@ export function Surface(props: {
     const { x_mm, y_mm, width_mm, height_mm } = frame();
     const [x, y] = [x_mm - MARGIN_MM, y_mm - MARGIN_MM];
     return `${x} ${y} ${width_mm + 2 * MARGIN_MM} ${height_mm + 2 * MARGIN_MM}`;
+  };
+  const rectangle = () => {
+    const { x_mm, y_mm, width_mm, height_mm } = frame();
+    return { x: x_mm, y: y_mm, width: width_mm, height: height_mm };
   };
   const isErasing = (): boolean => editor.editing().tool === 'erase';
   /** The eraser's circle, or the place of a corner or a post. */
@@ -123,17 +123,10 @@ export function Surface(props: {
       role="application"
       aria-label="Drawing"
       aria-describedby={props.helpId}
-      onKeyDown={(event) => {
-        onKey(editor, event);
-      }}
+      {...createPointer(editor)}
+      onKeyDown={(event) => onKey(editor, event)}
     >
-      <rect
-        class="draw-floor"
-        x={frame().x_mm}
-        y={frame().y_mm}
-        width={frame().width_mm}
-        height={frame().height_mm}
-      />
+      <rect class="draw-floor" {...rectangle()} />
       <Grid frame={frame()} />
       <For each={shapes()}>
         {(shape, index) => {
@@ -151,13 +144,7 @@ export function Surface(props: {
       <For each={editor.editing().corners}>
         {([x, y]) => <circle class="draw-corner" cx={x} cy={y} r={CORNER_PX * mmPerPx()} />}
       </For>
-      <rect
-        class="draw-border"
-        x={frame().x_mm}
-        y={frame().y_mm}
-        width={frame().width_mm}
-        height={frame().height_mm}
-      />
+      <rect class="draw-border" {...rectangle()} />
       <For each={props.passages}>
         {(place, index) => (
           <Passage place={place} isNarrowest={index() === 0} mmPerPx={mmPerPx()} />

@@ -1,9 +1,10 @@
 // The tools, their settings, and what can be done to the drawing as a whole.
 
-import { For, Show, createUniqueId, type JSX } from 'solid-js';
-import { SYMMETRIES, type Symmetry } from './drawing';
+import { For, Show, type JSX } from 'solid-js';
+import { ChoiceField, FlagField } from '../../ui/fields/fields';
+import { SYMMETRIES } from './drawing';
 import type { Editor } from './editor';
-import { type Brush, SIZES_MM, type Tool } from './editing';
+import { type Brush, SIZES_MM, type Step, type Tool } from './editing';
 import { TOOL_KEYS } from './keys';
 
 const TOOLS: readonly (readonly [Tool, name: string, help: string])[] = [
@@ -21,6 +22,51 @@ const BRUSHES: Partial<Record<Tool, readonly [Brush, string]>> = {
 };
 
 const SNAP_MM = 5;
+
+/** A button that changes the drawing as a whole, or what is begun or selected. */
+interface Deed {
+  readonly text: string;
+  readonly name?: string;
+  readonly title?: string;
+  readonly can: (editor: Editor) => boolean;
+  readonly act: (editor: Editor) => void;
+}
+
+const hasShapes = ({ editing }: Editor): boolean => editing().drawing.shapes.length > 0;
+const isBegun = ({ editing }: Editor): boolean => editing().corners.length > 0;
+const isSelected = ({ editing }: Editor): boolean => editing().selected !== undefined;
+const step =
+  (one: Step) =>
+  ({ act }: Editor): void =>
+    act(one);
+
+const DEEDS: readonly (readonly Deed[])[] = [
+  [
+    { text: 'Undo', title: 'Ctrl+Z', can: (one) => one.canUndo(), act: (one) => one.undo() },
+    { text: 'Redo', title: 'Ctrl+Y', can: (one) => one.canRedo(), act: (one) => one.redo() },
+  ],
+  [
+    {
+      text: 'Mirror ↔',
+      name: 'Mirror left and right',
+      title: 'Exchanges left and right, of the selected shape or of all',
+      can: hasShapes,
+      act: step({ type: 'mirror', axis: 'sides' }),
+    },
+    {
+      text: 'Mirror ↕',
+      name: 'Mirror top and bottom',
+      title: 'Exchanges top and bottom, of the selected shape or of all',
+      can: hasShapes,
+      act: step({ type: 'mirror', axis: 'ends' }),
+    },
+  ],
+  [
+    { text: 'Delete', can: isSelected, act: step({ type: 'delete' }) },
+    { text: 'Finish', can: isBegun, act: step({ type: 'finish' }) },
+    { text: 'Cancel', can: isBegun, act: step({ type: 'cancel' }) },
+  ],
+];
 
 function Size(props: { editor: Editor; brush: Brush; name: string }): JSX.Element {
   const size_mm = (): number => props.editor.editing().size_mm[props.brush];
@@ -47,11 +93,7 @@ function Size(props: { editor: Editor; brush: Brush; name: string }): JSX.Elemen
 
 export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element {
   const { editor } = props;
-  const symmetryId = createUniqueId();
   const tool = (): Tool => editor.editing().tool;
-  const isBegun = (): boolean => editor.editing().corners.length > 0;
-  const isSelected = (): boolean => editor.editing().selected !== undefined;
-  const isEmpty = (): boolean => editor.editing().drawing.shapes.length === 0;
   const help = (): string => TOOLS.find(([name]) => name === tool())?.[2] ?? '';
   return (
     <section class="panel draw-tools" aria-label="Tools">
@@ -62,9 +104,7 @@ export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element 
               type="button"
               aria-pressed={tool() === name}
               title={`${title} (${TOOL_KEYS[name].toUpperCase()})`}
-              onClick={() => {
-                editor.act({ type: 'tool', tool: name });
-              }}
+              onClick={() => editor.act({ type: 'tool', tool: name })}
             >
               {label}
             </button>
@@ -79,94 +119,36 @@ export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element 
           {(brush) => <Size editor={editor} brush={brush()[0]} name={brush()[1]} />}
         </Show>
       </div>
-      <label>
-        <input
-          type="checkbox"
-          checked={editor.editing().snap_mm > 0}
-          onChange={(event) => {
-            editor.act({ type: 'snap', snap_mm: event.currentTarget.checked ? SNAP_MM : 0 });
-          }}
-        />
-        Snap to {SNAP_MM} mm
-      </label>
-      <div class="draw-field">
-        <label for={symmetryId}>Symmetry</label>
-        <select
-          id={symmetryId}
-          onChange={(event) => {
-            editor.act({ type: 'symmetry', symmetry: event.currentTarget.value as Symmetry });
-          }}
-        >
-          <For each={SYMMETRIES}>
-            {([name, label]) => (
-              <option value={name} selected={editor.editing().symmetry === name}>
-                {label}
-              </option>
-            )}
-          </For>
-        </select>
-      </div>
-      <div class="draw-row">
-        <button type="button" disabled={!editor.canUndo()} title="Ctrl+Z" onClick={editor.undo}>
-          Undo
-        </button>
-        <button type="button" disabled={!editor.canRedo()} title="Ctrl+Y" onClick={editor.redo}>
-          Redo
-        </button>
-      </div>
-      <div class="draw-row">
-        <button
-          type="button"
-          disabled={isEmpty()}
-          title="Exchanges left and right, of the selected shape or of all"
-          aria-label="Mirror left and right"
-          onClick={() => {
-            editor.act({ type: 'mirror', axis: 'sides' });
-          }}
-        >
-          Mirror ↔
-        </button>
-        <button
-          type="button"
-          disabled={isEmpty()}
-          title="Exchanges top and bottom, of the selected shape or of all"
-          aria-label="Mirror top and bottom"
-          onClick={() => {
-            editor.act({ type: 'mirror', axis: 'ends' });
-          }}
-        >
-          Mirror ↕
-        </button>
-      </div>
-      <div class="draw-row">
-        <button
-          type="button"
-          disabled={!isSelected()}
-          onClick={() => {
-            editor.act({ type: 'delete' });
-          }}
-        >
-          Delete
-        </button>
-        <button
-          type="button"
-          disabled={!isBegun()}
-          onClick={() => {
-            editor.act({ type: 'finish' });
-          }}
-        >
-          Finish
-        </button>
-        <button
-          type="button"
-          disabled={!isBegun()}
-          onClick={() => {
-            editor.act({ type: 'cancel' });
-          }}
-        >
-          Cancel
-        </button>
-      </div>
+      <FlagField
+        label={`Snap to ${SNAP_MM} mm`}
+        value={editor.editing().snap_mm > 0}
+        onChoose={(snaps) => editor.act({ type: 'snap', snap_mm: snaps ? SNAP_MM : 0 })}
+      />
+      <ChoiceField
+        label="Symmetry"
+        value={editor.editing().symmetry}
+        options={SYMMETRIES}
+        onChoose={(symmetry) => editor.act({ type: 'symmetry', symmetry })}
+      />
+      <For each={DEEDS}>
+        {(row) => (
+          <div class="draw-row">
+            <For each={row}>
+              {({ text, name, title, can, act }) => (
+                <button
+                  type="button"
+                  aria-label={name}
+                  title={title}
+                  disabled={!can(editor)}
+                  onClick={() => act(editor)}
+                >
+                  {text}
+                </button>
+              )}
+            </For>
+          </div>
+        )}
+      </For>
     </section>
   );
 }

@@ -25,24 +25,27 @@ export function checkWords(check: MapCheck): Remark[] {
   return remarks;
 }
 
-export interface Check {
-  /** Undefined if the drawing is refused, or before the first answer. */
-  readonly found: Accessor<MapCheck | undefined>;
-  /** Why the drawing is refused, or that the server did not answer. */
-  readonly error: Accessor<string | undefined>;
-  /** Whether this is about the present drawing. */
-  readonly isPresent: Accessor<boolean>;
-}
-
 /** Asks again when the connection comes back. */
-export function createCheck(svg: Accessor<string>, isLive: Accessor<boolean>): Check {
+export function createCheck(svg: Accessor<string>, isLive: Accessor<boolean>) {
   const answer = createAnswerFrom(checkOf, () => (isLive() ? svg() : undefined), {
     key: svg,
     perS: CHECKS_PER_S,
   });
   return {
-    found: () => (answer().error === undefined ? answer().data : undefined),
-    error: () => answer().error,
-    isPresent: () => answer().key === svg(),
+    remarks: (): readonly Remark[] => {
+      const { error, data } = answer();
+      return error === undefined
+        ? data
+          ? checkWords(data)
+          : []
+        : [{ text: error, isWarning: true }];
+    },
+    /** Of the present drawing; undefined if it is refused, or before it is checked. */
+    found: (): MapCheck | undefined => {
+      const { error, data, key } = answer();
+      return error === undefined && key === svg() ? data : undefined;
+    },
   };
 }
+
+export type Check = ReturnType<typeof createCheck>;

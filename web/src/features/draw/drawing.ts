@@ -1,9 +1,9 @@
 // A map as the user draws it, in millimetres, x right and y down, as in its SVG. Pure.
 
-import { insidePolygon } from '../../lab/geometry';
+import { distance, insidePolygon, type Vec2 } from '../../lab/geometry';
 import type { PositionerKind } from '../../net/protocol.gen';
 
-export type Mm = readonly [number, number];
+export type Mm = Vec2;
 
 /** A line of a chosen width, with round ends. */
 export interface Wall {
@@ -58,10 +58,6 @@ export const SYMMETRIES = [
 
 export type Symmetry = (typeof SYMMETRIES)[number][0];
 
-export function distanceMm(a: Mm, b: Mm): number {
-  return Math.hypot(a[0] - b[0], a[1] - b[1]);
-}
-
 function mapped(shape: Shape, to: (point: Mm) => Mm): Shape {
   if (shape.kind === 'wall') return { ...shape, points: shape.points.map(to) };
   if (shape.kind === 'post') return { ...shape, center: to(shape.center) };
@@ -79,20 +75,20 @@ export function mirrored(shape: Shape, frame: Frame, axis: 'sides' | 'ends'): Sh
   return mapped(shape, ([x, y]) => (axis === 'sides' ? [sum_x - x, y] : [x, sum_y - y]));
 }
 
-/** Text that is the same for a line in both directions, and for a ring from each of its points. */
-function keyOf(points: readonly Mm[], isRing: boolean): string {
-  const texts = points.map(place);
-  const least = texts.reduce((best, text, index) => (text < (texts[best] ?? '') ? index : best), 0);
-  const from = isRing ? [...texts.slice(least), ...texts.slice(0, least)] : texts;
-  const [first = '', ...others] = from;
-  const back = isRing ? [first, ...others.toReversed()] : from.toReversed();
-  return [from.join(), back.join()].sort()[0] ?? '';
+/** Closed lines around a shape. That around a wall goes to its end and back. */
+function outlinesOf(shape: Shape): readonly (readonly Mm[])[] {
+  if (shape.kind === 'area') return shape.rings;
+  return shape.kind === 'post'
+    ? [[shape.center]]
+    : [[...shape.points, ...shape.points.toReversed()]];
 }
 
-/** Text that two shapes have in common only if they cover the same. */
+/** Text that two shapes have in common only if they cover the same: their sides, in any order and direction. */
 function placeKey(shape: Shape): string {
-  if (shape.kind === 'area') return shape.rings.map((ring) => keyOf(ring, true)).join(';');
-  return keyOf(shape.kind === 'wall' ? shape.points : [shape.center], false);
+  const sides = outlinesOf(shape).flatMap((points) =>
+    points.map((point, index) => [points.at(index - 1) ?? point, point].map(place).sort().join()),
+  );
+  return sides.sort().join(';');
 }
 
 /** A shape with the copies that a symmetry asks for. A copy at the same place is left out. */
@@ -106,8 +102,7 @@ export function withImages(shape: Shape, frame: Frame, symmetry: Symmetry): Shap
 }
 
 function middleOf(shape: Shape): Mm {
-  if (shape.kind === 'post') return shape.center;
-  const points = shape.kind === 'wall' ? shape.points : (shape.rings[0] ?? []);
+  const [points = []] = outlinesOf(shape);
   const middle = (axis: 0 | 1): number => {
     const values = points.map((point) => point[axis]);
     return (Math.min(...values) + Math.max(...values)) / 2;
@@ -140,11 +135,11 @@ function distanceToLine([x, y]: Mm, from: Mm, to: Mm): number {
   const square = dx * dx + dy * dy;
   const share = square === 0 ? 0 : ((x - from[0]) * dx + (y - from[1]) * dy) / square;
   const along = Math.min(1, Math.max(0, share));
-  return distanceMm([x, y], [from[0] + along * dx, from[1] + along * dy]);
+  return distance([x, y], [from[0] + along * dx, from[1] + along * dy]);
 }
 
 function isAt(shape: Shape, at: Mm, slop_mm: number): boolean {
-  if (shape.kind === 'post') return distanceMm(at, shape.center) <= shape.radius_mm + slop_mm;
+  if (shape.kind === 'post') return distance(at, shape.center) <= shape.radius_mm + slop_mm;
   if (shape.kind === 'wall') {
     const most_mm = shape.width_mm / 2 + slop_mm;
     return shape.points.some(
@@ -152,13 +147,7 @@ function isAt(shape: Shape, at: Mm, slop_mm: number): boolean {
     );
   }
   const [exterior = [], ...holes] = shape.rings;
-  return insidePolygon(
-    {
-      exterior: exterior.map(([x, y]) => [x, y]),
-      holes: holes.map((hole) => hole.map(([x, y]) => [x, y])),
-    },
-    at,
-  );
+  return insidePolygon({ exterior, holes }, at);
 }
 
 /** The index of the topmost shape at a point, or within `slop_mm` of a line or post there. */

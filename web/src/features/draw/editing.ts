@@ -1,9 +1,9 @@
 // What tools do with a drawing: one step for each click, drag and key. Pure.
 
+import { distance } from '../../lab/geometry';
 import { carved, simplified } from './carve';
 import {
   clampedTo,
-  distanceMm,
   type Drawing,
   mirrored,
   type Mm,
@@ -133,7 +133,7 @@ export function pending(editing: Editing, pointer?: Mm): Shape | undefined {
   }
   if (tool === 'post' && from && to) {
     // A drag from the middle of a post gives its size.
-    const radius_mm = Math.max(distanceMm(from, to), SIZES_MM.least / 2);
+    const radius_mm = Math.max(distance(from, to), SIZES_MM.least / 2);
     return { kind: 'post', center: snapped(from, snap_mm), radius_mm };
   }
   if (tool === 'erase' && trace.length > 0) {
@@ -168,7 +168,7 @@ function clicked(editing: Editing, pointer: Mm, slop_mm: number): Editing {
   const { tool, corners, size_mm, snap_mm, drawing } = editing;
   const at = snapped(clampedTo(drawing.frame, pointer), snap_mm);
   const isNear = (corner: Mm | undefined): boolean =>
-    corner !== undefined && distanceMm(corner, at) <= slop_mm;
+    corner !== undefined && distance(corner, at) <= slop_mm;
   switch (tool) {
     case 'wall':
       return isNear(corners.at(-1)) ? finished(editing) : { ...editing, corners: [...corners, at] };

@@ -1,28 +1,15 @@
 // The drawing that is being edited, with undo, and where the pointer or the keyboard's cursor is.
 
-import { createSignal, type Accessor } from 'solid-js';
+import { createSignal } from 'solid-js';
 import { amended, onward, redone, startOf, type Undo, undone } from '../../ui/undo';
 import { recallDraft, rememberDraft } from './draft';
 import { BLANK, type Drawing, type Mm } from './drawing';
-import { after, begin, type Editing, type Step } from './editing';
+import { after, begin, type Step } from './editing';
 
 const DEFAULT_NAME = 'my-maze';
 
-export interface Editor {
-  readonly editing: Accessor<Editing>;
-  readonly pointer: Accessor<Mm | undefined>;
-  readonly point: (at: Mm | undefined) => void;
-  readonly name: Accessor<string>;
-  readonly rename: (name: string) => void;
-  readonly act: (step: Step) => void;
-  readonly undo: () => void;
-  readonly redo: () => void;
-  readonly canUndo: Accessor<boolean>;
-  readonly canRedo: Accessor<boolean>;
-}
-
 /** Begins with the draft of the last visit, if there is one. */
-export function createEditor(): Editor {
+export function createEditor() {
   const first = recallDraft() ?? BLANK;
   const [editing, setEditing] = createSignal(begin(first));
   const [history, setHistory] = createSignal(startOf(first));
@@ -55,15 +42,17 @@ export function createEditor(): Editor {
     name,
     rename,
     act,
-    undo: () => {
+    undo: (): void => {
       if (isDragging()) act({ type: 'cancel' });
       else if (isBegun()) act({ type: 'back' });
       else show(undone(history()));
     },
-    redo: () => {
+    redo: (): void => {
       if (canRedo()) show(redone(history()));
     },
-    canUndo: () => isBegun() || history().past.length > 0,
+    canUndo: (): boolean => isBegun() || history().past.length > 0,
     canRedo,
   };
 }
+
+export type Editor = ReturnType<typeof createEditor>;

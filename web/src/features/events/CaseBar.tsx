@@ -1,6 +1,6 @@
 // Saves the trial as a test case, opens a saved one, and shows the opened one.
 
-import { For, Show, createMemo, type JSX } from 'solid-js';
+import { For, Show, type JSX } from 'solid-js';
 import { sessionPath } from '../../net/session';
 import type { Lab } from '../../lab/slices';
 import { FileButton } from '../../ui/FileButton';
@@ -15,15 +15,10 @@ export function CaseBar(props: { lab: Lab }): JSX.Element {
     if (!state || (!state.goal_m && state.deliveries === 0)) return undefined;
     return addressOf(sessionPath(lab.session, 'case.json'));
   };
-  const words = createMemo(
-    () => {
-      const [scene, state] = [lab.scene(), lab.state()];
-      if (!scene?.case || !state) return [];
-      return caseWords(scene.case, lab.marks(), state, scene.tick_s);
-    },
-    [],
-    { equals: (a, b) => a.join() === b.join() },
-  );
+  const words = (): string[] => {
+    const [scene, state] = [lab.scene(), lab.state()];
+    return scene?.case && state ? caseWords(scene.case, lab.marks(), state, scene.tick_s) : [];
+  };
   return (
     <div class="case-bar">
       <For each={words()}>{(sentence) => <p>{sentence}</p>}</For>

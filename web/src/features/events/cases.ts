@@ -23,23 +23,14 @@ export async function openCase(lab: Session & Notices & OpenTab, file: File): Pr
     say('Take control to open a test case.');
     return;
   }
-  const tooLarge = `This test case is too large: the limit is ${bytes >> 10} KiB. It is lower while many pages are open.`;
-  if (file.size > bytes) {
-    say(tooLarge);
-    return;
-  }
-  let text;
-  try {
-    text = await file.text();
-  } catch {
-    say('The browser could not read this file.');
-    return;
-  }
-  if (fits(text, bytes)) {
+  const text = file.size > bytes ? '' : await file.text().catch(() => undefined);
+  if (text === undefined) say('The browser could not read this file.');
+  else if (file.size > bytes || !fits(text, bytes)) {
+    const limit = `${bytes >> 10} KiB. It is lower while many pages are open.`;
+    say(`This test case is too large: the limit is ${limit}`);
+  } else {
     const { kind } = await lab.send('playback', { type: 'open_case', case: text });
     if (kind === 'done') lab.openTab('events');
-  } else {
-    say(tooLarge);
   }
 }
 

@@ -15,6 +15,7 @@ import {
   needsReset,
 } from '../../lab/failure';
 import type { Events, OpenTab, Pictures, Session, Trial } from '../../lab/slices';
+import { CloseButton } from '../../ui/CloseButton';
 import './failure.css';
 
 type FailureLab = Session & Trial & Events & Pictures & OpenTab;
@@ -116,16 +117,7 @@ export function FailureCard(props: { lab: FailureLab }): JSX.Element {
         <section class="failure" role="status" aria-label="Not delivered">
           <header>
             <h3>Not delivered</h3>
-            <button
-              type="button"
-              class="bare"
-              aria-label="Close"
-              onClick={() => {
-                setClosed(now().key);
-              }}
-            >
-              ×
-            </button>
+            <CloseButton label="Close" onClose={() => setClosed(now().key)} />
           </header>
           <p>{causeOf(now())}</p>
           <Show when={lab.canOperate()}>

@@ -35,9 +35,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
                   type="button"
                   class="lesson-card"
                   classList={{ done: isDone() }}
-                  onClick={() => {
-                    store.open(lesson);
-                  }}
+                  onClick={() => store.open(lesson)}
                 >
                   <span class="lesson-title">
                     {lesson.title}
@@ -62,9 +60,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
         class="small start-over"
         disabled={isFresh()}
         title="Forgets your predictions and which lessons are done"
-        onClick={() => {
-          store.startOver();
-        }}
+        onClick={store.startOver}
       >
         Start over
       </button>

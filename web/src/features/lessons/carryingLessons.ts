@@ -1,7 +1,7 @@
 // Lessons about the three transports, and how each one treats walls.
 
-import { centimetres } from '../../ui/format';
-import { DELIVERED, deliveryWords, type ExperimentLesson, RUNNING } from './lesson';
+import { centimetres, seconds } from '../../ui/format';
+import { DELIVERED, deliveryWords, type ExperimentLesson, isSlower } from './lesson';
 
 const FACE = '#v=1&map=posts&controller=attractor&seed=1&start=-0.05,-0.3&goal=0.13,-0.3';
 const THERE = 'seed=1&start=0.19,-0.28&goal=-0.19,-0.48';
@@ -15,11 +15,11 @@ export const ATTRACTOR: ExperimentLesson = {
   minutes: 3,
   question:
     'Attractor dynamics pull the tool straight toward the goal, and bend this motion around each wall in view. The goal is right behind the middle of a flat wall. Where does the paper’s law move the tool?',
-  choices: [
-    { id: 'around', text: 'Around the wall, on either side' },
-    { id: 'stuck', text: 'Up to the wall, and it stays there' },
-    { id: 'through', text: 'Through the wall, with the bead' },
-  ],
+  choices: {
+    around: 'Around the wall, on either side',
+    stuck: 'Up to the wall, and it stays there',
+    through: 'Through the wall, with the bead',
+  },
   runs: [
     {
       title: 'The paper’s law',
@@ -31,13 +31,11 @@ export const ATTRACTOR: ExperimentLesson = {
         'Press Run and wait until the tool stays in one place.',
       ],
       tasks: [
-        RUNNING,
         {
           text: `The tool stays in one place for ${STUCK_S} s`,
           done: (track) => track.lingered_s > STUCK_S,
         },
       ],
-      actions: [],
     },
     {
       title: 'The improved law',
@@ -45,17 +43,16 @@ export const ATTRACTOR: ExperimentLesson = {
       speed: 2,
       layers: ['flow', 'sensed'],
       words: ['The same wall and the same goal, now with Ferry’s improved law.'],
-      tasks: [RUNNING, DELIVERED],
-      actions: [],
+      tasks: [DELIVERED],
     },
   ],
-  outcome: ([literal]) => {
-    if (literal && literal.deliveries.length > 0) return 'around';
-    return (literal?.lingered_s ?? 0) > STUCK_S ? 'stuck' : 'through';
+  outcome: (literal) => {
+    if (literal.deliveries.length > 0) return 'around';
+    return literal.lingered_s > STUCK_S ? 'stuck' : 'through';
   },
-  facts: ([literal, improved]) => [
-    ['paper’s law: time in one place', `${(literal?.lingered_s ?? 0).toFixed(1)} s`],
-    ['left to the goal', centimetres(literal?.goalDistance_m ?? 0)],
+  facts: (literal, improved) => [
+    ['paper’s law: time in one place', seconds(literal.lingered_s)],
+    ['left to the goal', centimetres(literal.goalDistance_m ?? 0)],
     ['improved law: delivered', deliveryWords(improved)],
   ],
   why: [
@@ -74,11 +71,11 @@ export const ERRT: ExperimentLesson = {
   minutes: 4,
   question:
     'ERRT treats areas that the camera has not shown as free. When the camera shows a wall across its path, ERRT plans again. After the delivery you send the bead back to its start. How often does ERRT plan on the way back?',
-  choices: [
-    { id: 'same', text: 'About as often as on the way to the goal' },
-    { id: 'once', text: 'Once' },
-    { id: 'never', text: 'Never: it follows the old path in reverse' },
-  ],
+  choices: {
+    same: 'About as often as on the way to the goal',
+    once: 'Once',
+    never: 'Never: it follows the old path in reverse',
+  },
   runs: [
     {
       link: `#v=1&map=colon&controller=errt&${THERE}`,
@@ -89,7 +86,6 @@ export const ERRT: ExperimentLesson = {
         'When the bead is delivered, press Send it back.',
       ],
       tasks: [
-        RUNNING,
         { text: 'ERRT has planned again five times', done: (track) => track.plans > 5 },
         { text: 'Delivered to the goal', done: (track) => track.deliveries.length > 0 },
         { text: 'Delivered back to the start', done: (track) => track.deliveries.length > 1 },
@@ -102,20 +98,16 @@ export const ERRT: ExperimentLesson = {
       ],
     },
   ],
-  outcome: ([track]) => {
-    const [there, back] = track?.deliveries ?? [];
+  outcome: ({ deliveries: [there, back] }) => {
     if (!there || !back) return 'same';
     const again = back.plans - there.plans;
     if (again === 0) return 'never';
     return again <= Math.max(1, there.plans / 4) ? 'once' : 'same';
   },
-  facts: ([track]) => {
-    const [there, back] = track?.deliveries ?? [];
-    return [
-      ['plans on the way to the goal', there ? String(there.plans) : '–'],
-      ['plans on the way back', there && back ? String(back.plans - there.plans) : '–'],
-    ];
-  },
+  facts: ({ deliveries: [there, back] }) => [
+    ['plans on the way to the goal', there ? String(there.plans) : '–'],
+    ['plans on the way back', there && back ? String(back.plans - there.plans) : '–'],
+  ],
   why: [
     'ERRT keeps the walls that the camera has shown in an obstacle map, as few rectangles as possible. On the way to the goal, each new fold can block the plan. On the way back all folds are in the map, so the new goal needs one new plan.',
     'ERRT also keeps waypoints of earlier plans. They help the search: most extensions of its tree aim at one of them.',
@@ -131,11 +123,11 @@ export const POLICY: ExperimentLesson = {
   minutes: 4,
   question:
     'The policy gets an image of 20 × 20 cm of the table around the tool, and two positions: of the goal and of the tool. With this input it delivers the bead. Now the camera is moved 3 cm to the side, and its image is not corrected for that, so the same walls appear a little shifted. What happens?',
-  choices: [
-    { id: 'same', text: 'It still delivers the bead' },
-    { id: 'longer', text: 'It delivers the bead on a longer path' },
-    { id: 'lost', text: 'It loses its way and never arrives' },
-  ],
+  choices: {
+    same: 'It still delivers the bead',
+    longer: 'It delivers the bead on a longer path',
+    lost: 'It loses its way and never arrives',
+  },
   runs: [
     {
       title: 'As it was trained',
@@ -145,8 +137,7 @@ export const POLICY: ExperimentLesson = {
       words: [
         'Set it up shows a dashed square around the tool: this is what the camera sees. Open the panel Camera: it shows the camera image and both channels of the observation. During the run, four diagrams on the right show the value that the policy gives to each possible step.',
       ],
-      tasks: [RUNNING, DELIVERED],
-      actions: [],
+      tasks: [DELIVERED],
     },
     {
       title: 'The camera moved by 3 cm',
@@ -157,29 +148,26 @@ export const POLICY: ExperimentLesson = {
         'Set it up moves the camera and switches Corrected image off. Press Run and watch how the values of the four steps change.',
       ],
       tasks: [
-        RUNNING,
         {
           text: `Delivered, or the tool stays in one place for ${STUCK_S} s`,
           done: (track) => track.deliveries.length > 0 || track.lingered_s > STUCK_S,
         },
       ],
-      actions: [],
     },
   ],
-  outcome: ([trained, moved]) => {
-    const [first, second] = [trained?.deliveries[0], moved?.deliveries[0]];
-    if (!second) return 'lost';
-    return first && second.time_s > 1.25 * first.time_s ? 'longer' : 'same';
+  outcome: (trained, moved) => {
+    if (moved.deliveries.length === 0) return 'lost';
+    return isSlower(moved, trained) ? 'longer' : 'same';
   },
-  facts: ([trained, moved]) => [
+  facts: (trained, moved) => [
     ['as trained: delivered', deliveryWords(trained)],
     [
       'camera moved',
-      moved && moved.deliveries.length > 0
+      moved.deliveries.length > 0
         ? `delivered ${deliveryWords(moved)}`
-        : `${(moved?.lingered_s ?? 0).toFixed(1)} s in one place`,
+        : `${seconds(moved.lingered_s)} in one place`,
     ],
-    ['left to the goal', centimetres(moved?.goalDistance_m ?? 0)],
+    ['left to the goal', centimetres(moved.goalDistance_m ?? 0)],
   ],
   why: [
     'The policy was trained with the tool in the middle of the image. At the first fold it gives a step down a low value and goes around the fold. With the moved camera, the fold is no longer in the middle of the image: the same step gets the highest value, and the policy always chooses it.',

@@ -4,15 +4,10 @@ import type {
   ClientMessage,
   Examination,
   SceneMessage,
-  StateMessage,
   TrainingSettings,
 } from '../../net/protocol.gen';
+import { seconds } from '../../ui/format';
 import type { Track } from './track';
-
-export interface Choice {
-  readonly id: string;
-  readonly text: string;
-}
 
 /** Something that the user has to see happen. */
 export interface Task {
@@ -23,7 +18,7 @@ export interface Task {
 /** A button of a lesson that sends a command. */
 export interface Action {
   readonly label: string;
-  readonly message: (scene: SceneMessage, state: StateMessage) => ClientMessage;
+  readonly message: (scene: SceneMessage) => ClientMessage;
 }
 
 /** One experiment of a lesson. */
@@ -32,14 +27,15 @@ export interface Run {
   readonly title?: string;
   /** The hash of an experiment link. */
   readonly link: string;
-  /** Playback speed. */
-  readonly speed: number;
+  /** Playback speed, if it is not 1. */
+  readonly speed?: number;
   /** Layers that are switched on with the run. */
   readonly layers: readonly string[];
   /** Instructions, one paragraph each. */
   readonly words: readonly string[];
+  /** After the first one, which is to run it. */
   readonly tasks: readonly Task[];
-  readonly actions: readonly Action[];
+  readonly actions?: readonly Action[];
 }
 
 /** A measured value with its unit. */
@@ -59,50 +55,45 @@ export interface TrainingRun {
 }
 
 /** `M` is what is measured in a run. */
-interface Frame<M> {
+interface Steps<R, M> {
   readonly id: string;
   readonly title: string;
   readonly aim: string;
   readonly minutes: number;
   readonly question: string;
-  readonly choices: readonly Choice[];
+  /** Texts by id. */
+  readonly choices: Readonly<Record<string, string>>;
+  readonly runs: readonly [R, ...R[]];
   /** Id of the choice that came true. There is one measurement per run. */
-  readonly outcome: (measured: readonly M[]) => string;
-  readonly facts: (measured: readonly M[]) => readonly Fact[];
+  readonly outcome: (...measured: M[]) => string;
   readonly why: readonly string[];
   /** Section of the paper. */
   readonly paper: string;
 }
 
-export interface ExperimentLesson extends Frame<Track> {
-  readonly runs: readonly [Run, ...Run[]];
+export interface ExperimentLesson extends Steps<Run, Track> {
+  readonly facts: (...measured: Track[]) => readonly Fact[];
 }
-
-export interface TrainingLesson extends Frame<Examination> {
-  readonly trainings: readonly [TrainingRun, ...TrainingRun[]];
-}
-
+export type TrainingLesson = Steps<TrainingRun, Examination>;
 export type Lesson = ExperimentLesson | TrainingLesson;
 
-export const isTrainingLesson = (lesson: Lesson): lesson is TrainingLesson => 'trainings' in lesson;
+export const isTraining = (run: Run | TrainingRun): run is TrainingRun => 'policy' in run;
+
+export const isTrainingLesson = (lesson: Lesson): lesson is TrainingLesson =>
+  isTraining(lesson.runs[0]);
 
 /** The experiments of a lesson. */
 export const runsOf = (lesson: Lesson): readonly Run[] =>
   isTrainingLesson(lesson) ? [] : lesson.runs;
 
-export const runCount = (lesson: Lesson): number =>
-  isTrainingLesson(lesson) ? lesson.trainings.length : lesson.runs.length;
-
-export function allDone(run: Run, track: Track | undefined): boolean {
-  return track !== undefined && run.tasks.every((task) => task.done(track));
-}
-
-// Tasks of several lessons.
-
-export const RUNNING: Task = {
+const RUNNING: Task = {
   text: 'The simulation runs: press Run or the space bar',
   done: (track) => track.time_s > 0.3,
 };
+
+export const tasksOf = (run: Run): readonly Task[] => [RUNNING, ...run.tasks];
+
+// Tasks and measurements of several lessons.
 
 export const DELIVERED: Task = {
   text: 'Delivered: bead within 20 mm of the goal',
@@ -116,9 +107,15 @@ export const DELIVERED_AFTER_FETCH: Task = {
     deliveries.some(({ time_s }) => time_s > fetchedAt_s),
 };
 
+/** When the first goal was delivered. */
+export const delivery_s = ({ deliveries }: Track): number => deliveries[0]?.time_s ?? Infinity;
+
+/** Whether a delivery took much longer than one before. */
+export const isSlower = (now: Track, before: Track): boolean =>
+  delivery_s(now) > 1.25 * delivery_s(before);
+
 /** When the first goal was delivered, as text. */
-export function deliveryWords(track: Track | undefined): string {
-  const first = track?.deliveries[0];
-  if (first) return `after ${first.time_s.toFixed(1)} s`;
-  return track?.stopped ? 'never: it stopped after 150 steps' : 'not yet';
+export function deliveryWords(track: Track): string {
+  if (track.deliveries.length > 0) return `after ${seconds(delivery_s(track))}`;
+  return track.stopped ? 'never: it stopped after 150 steps' : 'not yet';
 }

@@ -3,7 +3,7 @@
 import { centimetres, fixed, millimetres } from '../../ui/format';
 import { FACTS } from './facts.gen';
 import { storedRange } from '../../lab/parameters';
-import { DELIVERED, deliveryWords, type ExperimentLesson, RUNNING } from './lesson';
+import { DELIVERED, deliveryWords, type ExperimentLesson } from './lesson';
 
 /** Step by which the lesson lowers the magnet, and the lowest height. */
 const LOWER_BY_M = 0.002;
@@ -15,37 +15,33 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
   aim: 'See how a bead follows a magnet that never touches it.',
   minutes: 2,
   question: `The magnet hangs ${centimetres(FACTS.height_m, 0)} above the table and moves to the right at ${millimetres(FACTS.transport_speed_m_s)}/s. Where is the bead while the magnet moves?`,
-  choices: [
-    { id: 'below', text: 'Right below the magnet' },
-    { id: 'behind', text: 'A little behind, 1 to 3 cm' },
-    { id: 'edge', text: 'Far behind, where the pull ends' },
-  ],
+  choices: {
+    below: 'Right below the magnet',
+    behind: 'A little behind, 1 to 3 cm',
+    edge: 'Far behind, where the pull ends',
+  },
   runs: [
     {
       link: '#v=1&map=open&controller=attractor&seed=1&start=-0.15,-0.36&goal=0.15,-0.36',
-      speed: 1,
       layers: ['capture', 'trail'],
       words: [
         'Set it up loads an empty table with the goal 30 cm to the right, and switches on the layer Capture: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
         'Press Run and look at e on the right: the distance between tool and bead, as the tracker measures it. Its noise is 1 or 2 mm.',
       ],
       tasks: [
-        RUNNING,
         { text: 'The bead is carried for 10 cm', done: (track) => track.travelled_m > 0.1 },
         DELIVERED,
       ],
-      actions: [],
     },
   ],
-  outcome: ([track]) => {
-    const error_m = track?.carryingError_m ?? 0;
-    if (error_m < 0.008) return 'below';
-    return error_m < 0.03 ? 'behind' : 'edge';
+  outcome: ({ carryingError_m }) => {
+    if (carryingError_m < 0.008) return 'below';
+    return carryingError_m < 0.03 ? 'behind' : 'edge';
   },
-  facts: ([track]) => [
+  facts: (track) => [
     [
       'greatest distance behind, without the noise of the tracker',
-      millimetres(track?.carryingError_m ?? 0, 1),
+      millimetres(track.carryingError_m, 1),
     ],
     ['delivered', deliveryWords(track)],
   ],
@@ -63,26 +59,21 @@ export const LIFT_OFF: ExperimentLesson = {
   aim: 'Find out why the magnet has to stay 10 cm above the table.',
   minutes: 3,
   question: `With its lower face ${millimetres(FACTS.height_m)} above the table, the magnet lifts ${fixed(FACTS.lift, 2)} of the bead’s weight. You lower the magnet. When does the bead jump up to it?`,
-  choices: [
-    {
-      id: 'soon',
-      text: `Soon: about ${millimetres(FACTS.height_m - FACTS.lift_off_m)} lower`,
-    },
-    { id: 'half', text: 'At about half the height' },
-    { id: 'touch', text: 'Only when the magnet almost touches the bead' },
-  ],
+  choices: {
+    soon: `Soon: about ${millimetres(FACTS.height_m - FACTS.lift_off_m)} lower`,
+    half: 'At about half the height',
+    touch: 'Only when the magnet almost touches the bead',
+  },
   runs: [
     {
       title: 'Flat, as in the paper',
       link: '#v=1&map=open&controller=attractor&seed=1&start=0,-0.36',
-      speed: 1,
       layers: ['capture'],
       words: [
         'Set it up places the tool above the bead, without a goal. Press Run and lower the magnet step by step.',
         'Look at lift / weight on the right: at 1 the magnet lifts the whole weight of the bead.',
       ],
       tasks: [
-        RUNNING,
         {
           text: 'The magnet lifts 0.9 of the bead’s weight',
           done: (track) => track.greatestLift > 0.9,
@@ -108,32 +99,25 @@ export const LIFT_OFF: ExperimentLesson = {
     {
       title: 'On edge',
       link: '#v=1&map=open&controller=attractor&seed=1&start=0,-0.36&block_orientation=B&tool_height_m=0.09',
-      speed: 1,
       layers: ['capture'],
       words: [
         'The same magnet, turned on its edge, 90 mm above the table. That is lower than the height at which the bead jumped before.',
       ],
       tasks: [
-        RUNNING,
         {
           text: 'The bead stays on the table for 2 s',
           done: (track) => track.time_s > 2 && track.liftedAt_m === undefined,
         },
       ],
-      actions: [],
     },
   ],
-  outcome: ([flat]) => {
-    const height_m = flat?.liftedAt_m ?? 0;
-    if (height_m > 0.08) return 'soon';
-    return height_m > 0.03 ? 'half' : 'touch';
+  outcome: ({ liftedAt_m = 0 }) => {
+    if (liftedAt_m > 0.08) return 'soon';
+    return liftedAt_m > 0.03 ? 'half' : 'touch';
   },
-  facts: ([flat, edge]) => [
-    [
-      'magnet height when the bead jumped',
-      flat?.liftedAt_m ? millimetres(flat.liftedAt_m, 1) : '–',
-    ],
-    ['lift / weight on edge at 90 mm', edge ? fixed(edge.greatestLift, 2) : '–'],
+  facts: (flat, edge) => [
+    ['magnet height when the bead jumped', flat.liftedAt_m ? millimetres(flat.liftedAt_m, 1) : '–'],
+    ['lift / weight on edge at 90 mm', fixed(edge.greatestLift, 2)],
   ],
   why: [
     `The lift grows fast as the magnet comes down: ${fixed(FACTS.lift, 2)} of the weight at ${millimetres(FACTS.height_m)}, 0.90 at ${millimetres(FACTS.nine_tenths_at_m)}, and the whole weight at ${millimetres(FACTS.lift_off_m, 1)}. There the bead rises. The pull grows as it rises, so the bead hits the magnet.`,

@@ -1,13 +1,8 @@
 // A lesson about walls that move.
 
-import { DELIVERED, deliveryWords, type ExperimentLesson, RUNNING } from './lesson';
-import type { Track } from './track';
+import { DELIVERED, deliveryWords, type ExperimentLesson, isSlower } from './lesson';
 
 const COLON = '#v=1&map=colon&controller=rl&seed=1&start=0.19,-0.28&goal=-0.24,-0.27';
-/** A delivery that takes this many times as long counts as slower. */
-const SLOWER = 1.25;
-
-const delivery_s = (track: Track | undefined): number | undefined => track?.deliveries[0]?.time_s;
 
 export const THE_GUT_MOVES: ExperimentLesson = {
   id: 'gut-moves',
@@ -16,11 +11,11 @@ export const THE_GUT_MOVES: ExperimentLesson = {
   minutes: 5,
   question:
     'A living gut contracts: waves travel along its walls. The policy was trained between rigid walls, and decides from one camera picture at a time. Now waves of 6 mm come along every 6 seconds. What happens?',
-  choices: [
-    { id: 'same', text: 'It delivers the bead about as fast as before' },
-    { id: 'slower', text: 'It delivers the bead, but takes much longer' },
-    { id: 'never', text: 'It does not deliver the bead' },
-  ],
+  choices: {
+    same: 'It delivers the bead about as fast as before',
+    slower: 'It delivers the bead, but takes much longer',
+    never: 'It does not deliver the bead',
+  },
   runs: [
     {
       title: 'Rigid walls',
@@ -28,8 +23,7 @@ export const THE_GUT_MOVES: ExperimentLesson = {
       speed: 4,
       layers: ['camera', 'trail'],
       words: ['First the walls as they were in training.'],
-      tasks: [RUNNING, DELIVERED],
-      actions: [],
+      tasks: [DELIVERED],
     },
     {
       title: 'Peristalsis',
@@ -40,8 +34,7 @@ export const THE_GUT_MOVES: ExperimentLesson = {
         'The same start and goal. After Run, the walls begin to move: they close in and open again, one wave after the other.',
         'The waves travel at 2 cm/s, half as fast as the tool.',
       ],
-      tasks: [RUNNING, DELIVERED],
-      actions: [],
+      tasks: [DELIVERED],
     },
     {
       title: 'Strong contractions, and a planner',
@@ -52,16 +45,14 @@ export const THE_GUT_MOVES: ExperimentLesson = {
         'Another map with narrower passages, stronger waves, and ERRT. It plans again whenever a wall comes into its path.',
         'Where it finds no path between closed walls, it waits. Then the panel Controller says why the arm holds.',
       ],
-      tasks: [RUNNING, DELIVERED],
-      actions: [],
+      tasks: [DELIVERED],
     },
   ],
-  outcome: ([rigid, moving]) => {
-    const [before_s, now_s] = [delivery_s(rigid), delivery_s(moving)];
-    if (now_s === undefined) return 'never';
-    return now_s > SLOWER * (before_s ?? now_s) ? 'slower' : 'same';
+  outcome: (rigid, moving) => {
+    if (moving.deliveries.length === 0) return 'never';
+    return isSlower(moving, rigid) ? 'slower' : 'same';
   },
-  facts: ([rigid, moving, strong]) => [
+  facts: (rigid, moving, strong) => [
     ['rigid walls: delivered', deliveryWords(rigid)],
     ['waves of 6 mm: delivered', deliveryWords(moving)],
     ['waves of 12 mm, ERRT: delivered', deliveryWords(strong)],

@@ -1,70 +1,39 @@
 // The open lesson, its step, and the measurements of its experiments. The store lives as long as the page, so that a
 // lesson continues while the user looks at another tab.
 
-import {
-  createEffect,
-  createMemo,
-  createRoot,
-  createSignal,
-  on,
-  untrack,
-  type Accessor,
-} from 'solid-js';
-import { experimentFrom, loadMessage } from '../../lab/experimentLink';
-import { knownBy } from '../../lab/known';
-import {
-  allDone,
-  isTrainingLesson,
-  type Lesson,
-  runCount,
-  type Run,
-  type TrainingRun,
-} from './lesson';
-import { createLessonTrainings, type LessonTrainings } from './lessonTrainings';
-import { LESSONS } from './lessons';
-import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
-import { startTrack, observe, type Track } from './track';
+import { createEffect, createMemo, createRoot, createSignal, on } from 'solid-js';
+import { loadLink } from '../../lab/loadTrial';
 import type { Addressed, Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
+import { shareWords } from '../../lab/trainingStage';
 import type { Parameters } from '../../net/protocol.gen';
+import { recall, remember } from '../../ui/storage';
+import { type Fact, isTraining, isTrainingLesson, type Lesson, type Run, tasksOf } from './lesson';
+import { createLessonTrainings } from './lessonTrainings';
+import { LESSONS } from './lessons';
+import { NO_PROGRESS, type Progress, progressFrom } from './progress';
+import { startTrack, observe, type Track } from './track';
 
-type Tracks = readonly (Track | undefined)[];
+const KEY = 'lessons';
 
-export interface Lessons {
-  readonly progress: Accessor<Progress>;
-  readonly lesson: Accessor<Lesson | undefined>;
-  /** The lesson that was open before. */
-  readonly left: Accessor<Lesson | undefined>;
-  /** 0 is Predict, then come the runs, then Explain. */
-  readonly step: Accessor<number>;
-  readonly run: Accessor<Run | undefined>;
-  /** The training of the present step, in a lesson with trainings. */
-  readonly training: Accessor<TrainingRun | undefined>;
-  readonly trainings: LessonTrainings;
-  /** One per run that was set up. */
-  readonly tracks: Accessor<Tracks>;
-  readonly track: Accessor<Track | undefined>;
-  /** Whether the page shows an experiment other than the followed one. */
-  readonly isElsewhere: Accessor<boolean>;
-  /** Whether the user may go to the next step. */
-  readonly mayGoOn: Accessor<boolean>;
-  open(lesson: Lesson): void;
-  close(): void;
-  /** The lesson is done when its last step is shown. */
-  go(step: number): void;
-  choose(choice: string): void;
-  /** Loads the run's experiment. */
-  setUp(): Promise<void>;
-  startOver(): void;
+interface Result {
+  readonly outcome: string;
+  readonly facts: readonly Fact[];
 }
 
 export type LessonsLab = Addressed & Session & Trial & Events & Pictures & Layers;
 
-function createLessons(lab: LessonsLab): Lessons {
-  const [progress, setProgress] = createSignal(storedProgress(LESSONS));
+/** The measurements of all runs, or undefined if one is missing. */
+function all<R, M>(runs: readonly R[], measured: (run: R) => M | undefined): M[] | undefined {
+  const found = runs.map(measured).filter((one) => one !== undefined);
+  return found.length === runs.length ? found : undefined;
+}
+
+function createLessons(lab: LessonsLab) {
+  const [progress, setProgress] = createSignal(progressFrom(recall(KEY), LESSONS));
   const [lesson, setLesson] = createSignal<Lesson>();
   const [left, setLeft] = createSignal<Lesson>();
   const [step, setStep] = createSignal(0);
-  const [tracks, setTracks] = createSignal<Tracks>([]);
+  const [tracks, setTracks] = createSignal<ReadonlyMap<Run, Track>>(new Map());
   /** Layers that the lesson switched on and has to switch off again. */
   let lent: readonly string[] = [];
   /** Parameters and speed before the lesson's first experiment. */
@@ -72,64 +41,66 @@ function createLessons(lab: LessonsLab): Lessons {
 
   const keep = (next: Progress): void => {
     setProgress(next);
-    storeProgress(next);
+    remember(KEY, JSON.stringify(next));
   };
-  const run = createMemo(() => {
-    const now = lesson();
-    return now && !isTrainingLesson(now) ? now.runs[step() - 1] : undefined;
+  const isDone = (one: Lesson): boolean => progress().done.includes(one.id);
+  const run = createMemo(() => lesson()?.runs[step() - 1]);
+  const experiment = createMemo(() => {
+    const now = run();
+    return now && !isTraining(now) ? now : undefined;
   });
-  const training = createMemo(() => {
-    const now = lesson();
-    return now && isTrainingLesson(now) ? now.trainings[step() - 1] : undefined;
+  const trainings = createLessonTrainings(lab.catalog);
+  const track = createMemo(() => {
+    const now = experiment();
+    return now && tracks().get(now);
   });
-  const trainings = createLessonTrainings(lab.catalog, lesson);
-  const track = createMemo(() => tracks()[step() - 1]);
   /** The scenario of the present run, as the server has set it up. A reset begins it again. */
   const [own, setOwn] = createSignal<string>();
-  const isItsTrial = createMemo(() => {
-    const scene = lab.scene();
-    return scene !== undefined && JSON.stringify(scene.scenario) === own();
-  });
+  const scenario = createMemo(() => JSON.stringify(lab.scene()?.scenario));
 
   createEffect(() => {
-    const [scene, state, isOwn] = [lab.scene(), lab.state(), isItsTrial()];
-    if (!run() || !scene || !state) return;
+    const [now, scene, state] = [experiment(), lab.scene(), lab.state()];
+    if (!now || !scene || !state) return;
     const frame = { scene, state, overlay: lab.overlay(), marks: lab.marks() };
-    untrack(() => {
-      const before = track();
-      const isFollowed = before?.trial === scene.trial;
-      // Before the first tick, so that nothing is missed.
-      const isAtStart = isOwn && state.tick === 0;
-      if (!isFollowed && !isAtStart) return;
-      const next = isAtStart ? startTrack(frame) : before && observe(before, frame);
-      const all = [...tracks()];
-      all[step() - 1] = next;
-      setTracks(all);
+    // Before the first tick, so that nothing is missed.
+    const isAtStart = scenario() === own() && state.tick === 0;
+    setTracks((known) => {
+      const followed = known.get(now);
+      if (isAtStart) return new Map(known).set(now, startTrack(frame));
+      return followed?.trial === scene.trial
+        ? new Map(known).set(now, observe(followed, frame))
+        : known;
     });
   });
 
-  /** Switches the lesson's layers off, except those in `still`. */
-  const giveBackLayers = (still: readonly string[] = []): void => {
-    for (const layer of lent) if (!still.includes(layer)) lab.showLayer(layer, false);
-    lent = lent.filter((layer) => still.includes(layer));
+  /** Switches these layers on, and those of the run before off again. */
+  const lend = (layers: readonly string[]): void => {
+    const next = layers.filter((layer) => lent.includes(layer) || !lab.layers().has(layer));
+    for (const layer of lent) if (!next.includes(layer)) lab.showLayer(layer, false);
+    for (const layer of next) lab.showLayer(layer, true);
+    lent = next;
   };
   /** Restores parameters and speed, unless the user has loaded something else meanwhile. */
   const restore = (): void => {
-    const isStillThere = tracks().some((one) => one && one.trial === lab.scene()?.trial);
+    const isStillThere = [...tracks().values()].some(({ trial }) => trial === lab.scene()?.trial);
     if (before && isStillThere && lab.canOperate()) {
       void lab.send('playback', { type: 'configure', parameters: before.parameters });
       void lab.send('playback', { type: 'set_speed', factor: before.speed });
     }
     before = undefined;
   };
+  const go = (to: number): void => {
+    setOwn(undefined);
+    setStep(to);
+  };
   const leave = (): void => {
-    giveBackLayers();
+    lend([]);
     restore();
     setLeft(lesson());
     setLesson(undefined);
-    setOwn(undefined);
-    setStep(0);
-    setTracks([]);
+    go(0);
+    setTracks(new Map());
+    trainings.forget();
   };
 
   // Also by the browser's Back.
@@ -143,64 +114,84 @@ function createLessons(lab: LessonsLab): Lessons {
   return {
     progress,
     lesson,
+    /** The lesson that was open before. */
     left,
+    /** 0 is Predict, then come the runs, then Explain. */
     step,
+    /** The experiment or the training of the present step. */
     run,
-    training,
     trainings,
-    tracks,
+    /** The measurements of the present experiment, if it was set up. */
     track,
-    isElsewhere: () => {
+    /** Whether the page shows an experiment other than the followed one. */
+    isElsewhere: (): boolean => {
       const now = track();
       return now !== undefined && now.trial !== lab.scene()?.trial;
     },
-    mayGoOn: () => {
-      const now = lesson();
+    /** Whether the user may go to the next step. */
+    mayGoOn: (): boolean => {
+      const [now, here, measured] = [lesson(), run(), track()];
       if (!now) return false;
-      if (step() === 0) return progress().choices[now.id] !== undefined;
-      if (progress().done.includes(now.id)) return true;
-      if (training()) return trainings.summaries()[step() - 1]?.stage === 'done';
-      const here = run();
-      return !here || allDone(here, track());
+      if (!here) return progress().choices[now.id] !== undefined;
+      if (isDone(now)) return true;
+      if (isTraining(here)) return trainings.summary(here)?.stage === 'done';
+      return measured !== undefined && tasksOf(here).every((task) => task.done(measured));
     },
-    open: ({ id }) => {
+    /** Outcome and facts, if all runs were done since the lesson was opened. */
+    result: (): Result | undefined => {
+      const now = lesson();
+      if (!now) return undefined;
+      if (isTrainingLesson(now)) {
+        const examined = all(now.runs, (one) => trainings.summary(one)?.examined ?? undefined);
+        return (
+          examined && {
+            outcome: now.outcome(...examined),
+            facts: examined.map((one, index) => [
+              now.runs[index]?.title ?? '',
+              `${shareWords(one)} episodes`,
+            ]),
+          }
+        );
+      }
+      const measured = all(now.runs, (one) => tracks().get(one));
+      return measured && { outcome: now.outcome(...measured), facts: now.facts(...measured) };
+    },
+    open: ({ id }: Lesson): void => {
       lab.address.learn(id);
     },
-    close() {
+    close: (): void => {
       lab.address.learn(undefined);
     },
-    go(to) {
-      setOwn(undefined);
-      setStep(to);
+    /** The lesson is done when its last step is shown. */
+    go: (to: number): void => {
+      go(to);
       const now = lesson();
-      if (now && to > runCount(now) && !progress().done.includes(now.id))
+      if (now && to > now.runs.length && !isDone(now))
         keep({ ...progress(), done: [...progress().done, now.id] });
     },
-    choose(choice) {
+    choose: (choice: string): void => {
       const now = lesson();
       if (now) keep({ ...progress(), choices: { ...progress().choices, [now.id]: choice } });
     },
-    async setUp() {
-      const [here, scene, known] = [run(), lab.scene(), knownBy(lab)];
-      if (!here || !scene || !known) return;
-      const read = experimentFrom(here.link, known);
-      if (read.kind !== 'experiment') return;
+    /** Loads the run's experiment. */
+    setUp: async (next: Run): Promise<void> => {
+      const scene = lab.scene();
+      if (!scene) return;
       before ??= { parameters: scene.parameters, speed: lab.state()?.speed_target ?? 1 };
-      setTracks(tracks().map((old, index) => (index === step() - 1 ? undefined : old)));
-      const loaded = lab.send('playback', loadMessage(read.experiment, scene.defaults));
-      void lab.send('playback', { type: 'set_speed', factor: here.speed });
-      giveBackLayers(here.layers);
-      const off = here.layers.filter((layer) => !lab.layers().has(layer));
-      for (const layer of off) lab.showLayer(layer, true);
-      lent = [...lent, ...off];
-      const { kind } = await loaded;
-      if (kind === 'done' && run() === here) setOwn(JSON.stringify(lab.scene()?.scenario));
+      setTracks((known) => new Map([...known].filter(([one]) => one !== next)));
+      const loaded = loadLink(lab, 'playback', next.link);
+      void lab.send('playback', { type: 'set_speed', factor: next.speed ?? 1 });
+      lend(next.layers);
+      const answer = await loaded;
+      if (answer?.kind === 'done' && run() === next) setOwn(scenario());
     },
-    startOver() {
+    startOver: (): void => {
       keep(NO_PROGRESS);
     },
   };
 }
+
+export type Lessons = ReturnType<typeof createLessons>;
 
 const stores = new WeakMap<LessonsLab, Lessons>();
 

@@ -1,15 +1,16 @@
 // Lessons about switching: what happens to a lost bead, and how the threshold and the law decide.
 
-import { centimetres, millimetres } from '../../ui/format';
+import { centimetres, millimetres, seconds } from '../../ui/format';
 import { FACTS } from './facts.gen';
 import {
   DELIVERED,
   DELIVERED_AFTER_FETCH,
+  delivery_s,
   deliveryWords,
   type ExperimentLesson,
   type Run,
-  RUNNING,
 } from './lesson';
+import type { Track } from './track';
 
 const KICKED = '#v=1&map=open&controller=attractor&seed=1&start=-0.2,-0.36&goal=0.2,-0.36';
 const KICKS =
@@ -17,6 +18,8 @@ const KICKS =
 
 const POSTS = '#v=1&map=posts&controller=attractor&seed=1&start=-0.25,-0.37&goal=0.24,-0.36';
 const SLOW = 'approach_speed_m_s=0.05&script=displace:-0.14,-0.5@step:14';
+const fetchWords = ({ lostAt_s, fetchedAt_s }: Track): string =>
+  lostAt_s === undefined || fetchedAt_s === undefined ? '–' : seconds(fetchedAt_s - lostAt_s);
 /** This many switches are no accident. */
 const MANY_SWITCHES = 10;
 
@@ -27,21 +30,19 @@ export const LOSE_THE_BEAD: ExperimentLesson = {
   minutes: 3,
   question:
     'The arm carries the bead between the posts. You take the bead away, by 13 cm or more. What does the arm do?',
-  choices: [
-    { id: 'on', text: 'It continues to the goal without the bead' },
-    { id: 'waits', text: 'It stops until the bead is back' },
-    { id: 'fetches', text: 'It flies straight to the bead' },
-  ],
+  choices: {
+    on: 'It continues to the goal without the bead',
+    waits: 'It stops until the bead is back',
+    fetches: 'It flies straight to the bead',
+  },
   runs: [
     {
       link: POSTS,
-      speed: 1,
       layers: ['trail', 'capture'],
       words: [
         'Press Run. While the arm carries the bead, drag the bead away with the mouse or a finger, farther than T, and release it. Or press the button Take it away for me.',
       ],
       tasks: [
-        RUNNING,
         {
           text: 'The bead is more than T = 10 cm away',
           done: (track) => track.greatestError_m > 0.1 || track.losses > 0,
@@ -64,18 +65,13 @@ export const LOSE_THE_BEAD: ExperimentLesson = {
       ],
     },
   ],
-  outcome: ([track]) => {
-    if (track?.fetchedAt_s !== undefined) return 'fetches';
-    return track?.stopped ? 'waits' : 'on';
+  outcome: (track) => {
+    if (track.fetchedAt_s !== undefined) return 'fetches';
+    return track.stopped ? 'waits' : 'on';
   },
-  facts: ([track]) => [
-    ['greatest distance from the tool', centimetres(track?.greatestError_m ?? 0)],
-    [
-      'time to fetch it',
-      track?.lostAt_s !== undefined && track.fetchedAt_s !== undefined
-        ? `${(track.fetchedAt_s - track.lostAt_s).toFixed(1)} s`
-        : '–',
-    ],
+  facts: (track) => [
+    ['greatest distance from the tool', centimetres(track.greatestError_m)],
+    ['time to fetch it', fetchWords(track)],
     ['delivered', deliveryWords(track)],
   ],
   why: [
@@ -89,17 +85,14 @@ function kickedRun(title: string, link: string): Run {
   return {
     title,
     link,
-    speed: 1,
     layers: ['trail'],
     words: [
       'Four kicks of 0.5 mN·s push the bead backward, at the steps 4, 10, 16 and 22. Press Run and watch.',
     ],
     tasks: [
-      RUNNING,
       { text: 'Four kicks have happened', done: (track) => track.disturbances >= 4 },
       DELIVERED,
     ],
-    actions: [],
   };
 }
 
@@ -110,25 +103,24 @@ export const THRESHOLD: ExperimentLesson = {
   minutes: 3,
   question:
     'Four kicks push the bead backward, opposing the motion. In the first run the bead counts as lost when it is more than T = 10 cm away, in the second run when it is more than T = 3 cm away. What changes?',
-  choices: [
-    { id: 'nothing', text: 'Nothing: the kicks are the same' },
-    { id: 'sooner', text: 'It is fetched more often and arrives sooner' },
-    { id: 'later', text: 'It is fetched more often and arrives later' },
-  ],
+  choices: {
+    nothing: 'Nothing: the kicks are the same',
+    sooner: 'It is fetched more often and arrives sooner',
+    later: 'It is fetched more often and arrives later',
+  },
   runs: [
     kickedRun('T = 10 cm', `${KICKED}&${KICKS}`),
     kickedRun('T = 3 cm', `${KICKED}&threshold_m=0.03&${KICKS}`),
   ],
-  outcome: ([wide, narrow]) => {
-    if (!wide || !narrow || narrow.losses <= wide.losses) return 'nothing';
-    const [first, second] = [wide.deliveries[0], narrow.deliveries[0]];
-    return first && second && second.time_s < first.time_s ? 'sooner' : 'later';
+  outcome: (wide, narrow) => {
+    if (narrow.losses <= wide.losses) return 'nothing';
+    return delivery_s(narrow) < delivery_s(wide) ? 'sooner' : 'later';
   },
-  facts: ([wide, narrow]) => [
-    ['T = 10 cm: greatest distance', centimetres(wide?.greatestError_m ?? 0)],
-    ['fetched', `${wide?.losses ?? 0} times`],
+  facts: (wide, narrow) => [
+    ['T = 10 cm: greatest distance', centimetres(wide.greatestError_m)],
+    ['fetched', `${wide.losses} times`],
     ['delivered', deliveryWords(wide)],
-    ['T = 3 cm: fetched', `${narrow?.losses ?? 0} times`],
+    ['T = 3 cm: fetched', `${narrow.losses} times`],
     ['delivered', deliveryWords(narrow)],
   ],
   why: [
@@ -146,11 +138,11 @@ export const TWO_LAWS: ExperimentLesson = {
   minutes: 3,
   question:
     'The paper’s formula says: sub-controller 2 if e ≤ T, otherwise sub-controller 1. A disturbance moves the bead away, and the tool flies back to it slowly. What happens when the tool comes within T = 10 cm of the bead?',
-  choices: [
-    { id: 'carries', text: 'Sub-controller 2 takes over and carries the bead' },
-    { id: 'above', text: 'Sub-controller 1 continues until the tool is above the bead' },
-    { id: 'turns', text: 'The two take turns, again and again' },
-  ],
+  choices: {
+    carries: 'Sub-controller 2 takes over and carries the bead',
+    above: 'Sub-controller 1 continues until the tool is above the bead',
+    turns: 'The two take turns, again and again',
+  },
   runs: [
     {
       title: 'The formula as written',
@@ -161,11 +153,9 @@ export const TWO_LAWS: ExperimentLesson = {
         'Press Run. After about 3 s the bead is moved away. Look at the mode at the top and at the diagram on the right.',
       ],
       tasks: [
-        RUNNING,
         { text: 'The bead is lost', done: (track) => track.losses > 0 },
         { text: `${MANY_SWITCHES} switches`, done: (track) => track.switches >= MANY_SWITCHES },
       ],
-      actions: [],
     },
     {
       title: 'With hysteresis',
@@ -176,23 +166,18 @@ export const TWO_LAWS: ExperimentLesson = {
         'The same experiment with Ferry’s default law: sub-controller 1 moves the arm until the tool is within 1 cm of the bead.',
       ],
       tasks: [
-        RUNNING,
         { text: 'The bead is lost', done: (track) => track.losses > 0 },
         DELIVERED_AFTER_FETCH,
       ],
-      actions: [],
     },
   ],
-  outcome: ([literal]) => {
-    if ((literal?.switches ?? 0) >= MANY_SWITCHES) return 'turns';
-    return literal && literal.deliveries.length > 0 ? 'carries' : 'above';
+  outcome: (literal) => {
+    if (literal.switches >= MANY_SWITCHES) return 'turns';
+    return literal.deliveries.length > 0 ? 'carries' : 'above';
   },
-  facts: ([literal, hysteresis]) => [
-    [
-      'formula as written',
-      `${literal?.switches ?? 0} switches in ${(literal?.time_s ?? 0).toFixed(1)} s`,
-    ],
-    ['with hysteresis', `${hysteresis?.switches ?? 0} switches`],
+  facts: (literal, hysteresis) => [
+    ['formula as written', `${literal.switches} switches in ${seconds(literal.time_s)}`],
+    ['with hysteresis', `${hysteresis.switches} switches`],
     ['delivered', deliveryWords(hysteresis)],
   ],
   why: [

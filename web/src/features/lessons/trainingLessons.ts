@@ -1,7 +1,6 @@
 // Lessons about learning, each with trainings of a minute or less.
 
 import type { Examination } from '../../net/protocol.gen';
-import { shareWords } from '../../lab/trainingStage';
 import type { TrainingLesson } from './lesson';
 
 const UPDATES = 1500;
@@ -10,10 +9,12 @@ const FEW_UPDATES = 500;
 /** From this difference on, of 1000 episodes, one training is better. */
 const CLEAR = 100;
 
-const reached = (examination: Examination | undefined): number => examination?.reached ?? 0;
-
-const words = (examination: Examination | undefined): string =>
-  examination ? `${shareWords(examination)} episodes` : 'not examined';
+/** The one that reached clearly more goals. */
+function better(one: Examination, other: Examination, names: readonly [string, string]): string {
+  const difference = one.reached - other.reached;
+  if (Math.abs(difference) < CLEAR) return 'same';
+  return difference > 0 ? names[0] : names[1];
+}
 
 export const LEARNING_FAILS: TrainingLesson = {
   id: 'learning-fails',
@@ -21,15 +22,12 @@ export const LEARNING_FAILS: TrainingLesson = {
   aim: 'Take something away from a training that works, three times.',
   minutes: 4,
   question: `With the recipe Quick and ${UPDATES} updates, a policy learns the small maze: about 990 of 1000 episodes of its examination reach the goal. Now three trainings lack something. Which one fails?`,
-  choices: [
-    {
-      id: 'exploration',
-      text: 'The one without random steps and noise: it never tries anything new',
-    },
-    { id: 'discount', text: 'The one with discount 0: it only looks at the next reward' },
-    { id: 'sparse', text: 'The one that is rewarded only at the goal' },
-  ],
-  trainings: [
+  choices: {
+    exploration: 'The one without random steps and noise: it never tries anything new',
+    discount: 'The one with discount 0: it only looks at the next reward',
+    sparse: 'The one that is rewarded only at the goal',
+  },
+  runs: [
     {
       title: 'No random steps and no noise',
       policy: 'lesson-no-exploration',
@@ -56,17 +54,11 @@ export const LEARNING_FAILS: TrainingLesson = {
       ],
     },
   ],
-  outcome: (examinations) => {
-    const [exploration = 0, discount = 0, sparse = 0] = examinations.map(reached);
-    const least = Math.min(exploration, discount, sparse);
-    if (least === sparse) return 'sparse';
-    return least === exploration ? 'exploration' : 'discount';
+  outcome: (exploration, discount, sparse) => {
+    const least = Math.min(exploration.reached, discount.reached, sparse.reached);
+    if (least === sparse.reached) return 'sparse';
+    return least === exploration.reached ? 'exploration' : 'discount';
   },
-  facts: ([exploration, discount, sparse]) => [
-    ['without random steps and noise', words(exploration)],
-    ['with discount 0', words(discount)],
-    ['rewarded only at the goal', words(sparse)],
-  ],
   why: [
     'When only the goal is rewarded, the first value appears next to the goal. From there it spreads by about one cell each time the network is corrected, and small errors hide it far away. 1500 updates are not enough: the value map stays flat except near the goal. Such rewards are called sparse.',
     'The progress reward says at each step whether it was a good one. It is computed from the true shortest paths, which only the training knows. With it, looking one step ahead is enough, so even discount 0 works here.',
@@ -82,12 +74,12 @@ export const FAR_GOAL: TrainingLesson = {
   aim: 'See what the discount does when only the goal is rewarded.',
   minutes: 5,
   question: `Only the goal is rewarded, and there is time for ${MORE_UPDATES} updates. With a discount of .97, the goal is still worth .97²⁰ = .54 from 20 steps away; with .5 it is worth less than a millionth. Which policy reaches more goals?`,
-  choices: [
-    { id: 'far', text: 'The one with discount .97' },
-    { id: 'near', text: 'The one with discount .5: its values are easier to learn' },
-    { id: 'same', text: 'Both reach about as many: the order of the values is the same' },
-  ],
-  trainings: [
+  choices: {
+    far: 'The one with discount .97',
+    near: 'The one with discount .5: its values are easier to learn',
+    same: 'Both reach about as many: the order of the values is the same',
+  },
+  runs: [
     {
       title: 'Discount .97',
       policy: 'lesson-far',
@@ -101,15 +93,7 @@ export const FAR_GOAL: TrainingLesson = {
       words: ['The same training, but each step halves what the goal is worth.'],
     },
   ],
-  outcome: ([far, near]) => {
-    const difference = reached(far) - reached(near);
-    if (Math.abs(difference) < CLEAR) return 'same';
-    return difference > 0 ? 'far' : 'near';
-  },
-  facts: ([far, near]) => [
-    ['discount .97', words(far)],
-    ['discount .5', words(near)],
-  ],
+  outcome: (far, near) => better(far, near, ['far', 'near']),
   why: [
     'In theory the order of the values is the same. But a network is never exact: when two neighbouring cells differ by less than its error, the best step is a matter of chance. With discount .5, this begins a few cells from the goal.',
     'A discount near 1 has a price, too: values need more updates to reach far cells, and errors travel as far as values do.',
@@ -124,12 +108,12 @@ export const FINE_TUNING: TrainingLesson = {
   aim: 'Train a policy further on a map that it has never seen.',
   minutes: 2,
   question: `The policy colon was trained on the map colon only. It is trained further on the small maze, for ${FEW_UPDATES} updates, and so is a network with random weights. Which one reaches more goals?`,
-  choices: [
-    { id: 'random', text: 'The random one: colon has to forget first' },
-    { id: 'tuned', text: 'The one that begins as colon' },
-    { id: 'same', text: 'Both about as many' },
-  ],
-  trainings: [
+  choices: {
+    random: 'The random one: colon has to forget first',
+    tuned: 'The one that begins as colon',
+    same: 'Both about as many',
+  },
+  runs: [
     {
       title: 'From random weights',
       policy: 'lesson-random',
@@ -144,15 +128,7 @@ export const FINE_TUNING: TrainingLesson = {
       words: ['The same training, but it begins with the weights of the policy colon.'],
     },
   ],
-  outcome: ([random, tuned]) => {
-    const difference = reached(tuned) - reached(random);
-    if (Math.abs(difference) < CLEAR) return 'same';
-    return difference > 0 ? 'tuned' : 'random';
-  },
-  facts: ([random, tuned]) => [
-    ['from random weights', words(random)],
-    ['from the policy colon', words(tuned)],
-  ],
+  outcome: (random, tuned) => better(random, tuned, ['random', 'tuned']),
   why: [
     'The first layers of the network read the image: where walls are, and how near. Walls look the same in every maze, so this part is useful from the start. What the network still has to learn is which way leads to the goal here.',
     'On your own map, choose a policy at Start from. It saves most when there is little time; a full training ends equally well from random weights.',

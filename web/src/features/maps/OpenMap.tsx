@@ -3,6 +3,7 @@
 import { For, Show, onCleanup, type JSX } from 'solid-js';
 import type { Session } from '../../lab/slices';
 import { isOutOfReach, reportWords } from '../../lab/maps';
+import { CloseButton } from '../../ui/CloseButton';
 import { FileButton } from '../../ui/FileButton';
 import type { MapOpener } from './opener';
 import './maps.css';
@@ -15,9 +16,7 @@ export function OpenMap(props: {
 }): JSX.Element {
   const { lab, opener } = props;
   // Another view is opened.
-  onCleanup(() => {
-    opener.dismiss();
-  });
+  onCleanup(opener.dismiss);
   const isOff = (): boolean => !lab.canOperate() || opener.isBusy();
   return (
     <div class="open-map">
@@ -37,16 +36,7 @@ export function OpenMap(props: {
           <div class="map-report" role="status">
             <header>
               <strong>{now().report.name}</strong>
-              <button
-                type="button"
-                class="bare"
-                aria-label="Dismiss the report"
-                onClick={() => {
-                  opener.dismiss();
-                }}
-              >
-                ×
-              </button>
+              <CloseButton label="Dismiss the report" onClose={opener.dismiss} />
             </header>
             <For each={reportWords(now().report)}>{(words) => <p>{words}</p>}</For>
             <Show when={isOutOfReach(now().report)}>
@@ -64,9 +54,7 @@ export function OpenMap(props: {
               type="button"
               class="small"
               title="Opens the view Train: a policy learns this map"
-              onClick={() => {
-                props.onTrain();
-              }}
+              onClick={() => props.onTrain()}
             >
               Train a policy on it
             </button>

@@ -1,7 +1,7 @@
 // Sends the user's drawings to the server, and keeps what it says about the last one.
 
-import { createSignal, type Accessor } from 'solid-js';
-import { loadMap } from '../../lab/loadMap';
+import { createSignal } from 'solid-js';
+import { loadTrial } from '../../lab/loadTrial';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { MapReport } from '../../net/protocol.gen';
 import { addMap, isOutOfReach } from '../../lab/maps';
@@ -11,19 +11,7 @@ interface Added {
   readonly report: MapReport;
 }
 
-export interface MapOpener {
-  readonly isBusy: Accessor<boolean>;
-  /** The new map, until it is dismissed or another map is chosen. */
-  readonly added: Accessor<Added | undefined>;
-  /**
-   * Adds a drawing and starts a trial on it. `fit` moves it into the arm's reach. Returns whether it was added, and says
-   * why if it was not.
-   */
-  open(file: File, fit?: boolean): Promise<boolean>;
-  dismiss(): void;
-}
-
-export function createMapOpener(lab: Session & Trial & Notices): MapOpener {
+export function createMapOpener(lab: Session & Trial & Notices) {
   const [isBusy, setBusy] = createSignal(false);
   const [added, setAdded] = createSignal<Added>();
   const say = (text: string): void => {
@@ -31,13 +19,18 @@ export function createMapOpener(lab: Session & Trial & Notices): MapOpener {
   };
   return {
     isBusy,
-    added: () => {
+    /** The new map, until it is dismissed or another map is chosen. */
+    added: (): Added | undefined => {
       const now = added();
       // A map that is out of reach may not have been loaded.
       const stays = now && (isOutOfReach(now.report) || now.report.name === lab.scene()?.map);
       return stays ? now : undefined;
     },
-    async open(file, fit = false) {
+    /**
+     * Adds a drawing and starts a trial on it. `fit` moves it into the arm's reach. Returns whether it was added, and
+     * says why if it was not.
+     */
+    open: async (file: File, fit = false): Promise<boolean> => {
       if (!lab.canOperate()) {
         say('Take control to open a map.');
         return false;
@@ -50,7 +43,7 @@ export function createMapOpener(lab: Session & Trial & Notices): MapOpener {
       try {
         const report = await addMap(file, fit);
         setAdded({ file, report });
-        await loadMap(lab, report.name);
+        await loadTrial(lab, 'playback', { map: report.name });
         return true;
       } catch (reason) {
         say(reason instanceof Error ? reason.message : String(reason));
@@ -59,6 +52,10 @@ export function createMapOpener(lab: Session & Trial & Notices): MapOpener {
         setBusy(false);
       }
     },
-    dismiss: () => setAdded(undefined),
+    dismiss: (): void => {
+      setAdded(undefined);
+    },
   };
 }
+
+export type MapOpener = ReturnType<typeof createMapOpener>;

@@ -2,7 +2,7 @@
 
 import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
-import { loadMap } from '../../lab/loadMap';
+import { loadTrial } from '../../lab/loadTrial';
 import { hintAtGoal, runOrPause } from './run';
 import { speedName, SPEEDS, ticksToControlStep } from './steps';
 import { CommandButton } from '../../lab/CommandButton';
@@ -172,7 +172,7 @@ export function PlaybackBar(props: {
                   value={scene().map}
                   options={maps()}
                   disabled={!lab.canOperate()}
-                  onChoose={(map) => loadMap(lab, map)}
+                  onChoose={(map) => loadTrial(lab, 'playback', { map })}
                 />
                 {props.choices}
                 <Seed lab={lab} seed={scene().seed} />

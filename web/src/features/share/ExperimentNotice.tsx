@@ -4,22 +4,12 @@ import { Match, Switch, type JSX } from 'solid-js';
 import { experimentWords } from '../../lab/experimentLink';
 import type { PageExperiment } from '../../lab/pageExperiment';
 import type { Session } from '../../lab/slices';
+import { CloseButton } from '../../ui/CloseButton';
 import './share.css';
 
 export function ExperimentNotice(props: { lab: Session; links: PageExperiment }): JSX.Element {
   const { lab, links } = props;
-  const close = (
-    <button
-      type="button"
-      class="bare"
-      aria-label="Dismiss the link"
-      onClick={() => {
-        links.forget();
-      }}
-    >
-      ×
-    </button>
-  );
+  const close = <CloseButton label="Dismiss the link" onClose={links.forget} />;
   // The region is always in the document: screen readers announce what appears inside it.
   return (
     <div class="link-bar" role="alert" aria-label="Link">
@@ -43,9 +33,7 @@ export function ExperimentNotice(props: { lab: Session; links: PageExperiment })
                 type="button"
                 class="small primary"
                 disabled={lab.connection().kind !== 'live'}
-                onClick={() => {
-                  links.load();
-                }}
+                onClick={() => links.load()}
               >
                 Load
               </button>

@@ -9,14 +9,14 @@ import type { Session } from '../../lab/slices';
 const NONE = '';
 const OPTIONS = [
   [NONE, 'Preset…'] as const,
-  ...PRESETS.map(({ name, link }) => [link, name] as const),
+  ...Object.entries(PRESETS).map(([name, link]) => [link, name] as const),
 ];
 
 export function PresetSelect(props: { lab: Session; links: PageExperiment }): JSX.Element {
   const { lab, links } = props;
   const value = createMemo(() => {
     const now = links.now();
-    return PRESETS.find(({ link }) => link === now)?.link ?? NONE;
+    return Object.values(PRESETS).find((link) => link === now) ?? NONE;
   });
   return (
     <ServerSelect

@@ -6,14 +6,6 @@ import type { PageExperiment } from '../../lab/pageExperiment';
 import { createPopover } from '../../ui/popover';
 import './share.css';
 
-type Copied = 'no' | 'copied' | 'selected';
-
-const WORDS: Readonly<Record<Copied, string>> = {
-  no: '',
-  copied: 'Copied.',
-  selected: 'Selected: copy it with the keyboard or the menu.',
-};
-
 export function ShareButton(props: {
   links: PageExperiment;
   /** The map of the experiment. */
@@ -24,7 +16,7 @@ export function ShareButton(props: {
   let box!: HTMLDivElement;
   let button!: HTMLButtonElement;
   let field!: HTMLInputElement;
-  const [copied, setCopied] = createSignal<Copied>('no');
+  const [copied, setCopied] = createSignal('');
   const { open, setOpen, onFocusOut } = createPopover(
     () => box,
     () => button,
@@ -41,21 +33,18 @@ export function ShareButton(props: {
     // The link has changed since it was copied, or the popover was opened again.
     props.links.now();
     open();
-    setCopied('no');
+    setCopied('');
   });
   const select = (): void => {
     field.focus();
     field.select();
-    setCopied('selected');
+    setCopied('Selected: copy it with the keyboard or the menu.');
   };
   const copy = (): void => {
     // The clipboard is missing on a page loaded by plain HTTP from another machine.
     const clipboard = navigator.clipboard as Clipboard | undefined;
-    if (!clipboard) {
-      select();
-      return;
-    }
-    clipboard.writeText(field.value).then(() => setCopied('copied'), select);
+    if (clipboard) clipboard.writeText(field.value).then(() => setCopied('Copied.'), select);
+    else select();
   };
   return (
     <div ref={box} class="share" onFocusOut={onFocusOut}>
@@ -78,16 +67,14 @@ export function ShareButton(props: {
               readonly
               aria-label="Link to this experiment"
               value={address()}
-              onFocus={() => {
-                field.select();
-              }}
+              onFocus={() => field.select()}
             />
             <button type="button" class="primary" onClick={copy}>
               Copy
             </button>
           </div>
           <p class="share-done" role="status">
-            {WORDS[copied()]}
+            {copied()}
           </p>
           <p>
             The link contains the map, seed, start, goal, controller, changed parameters and

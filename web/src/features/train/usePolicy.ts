@@ -1,5 +1,6 @@
 // Lets a policy carry the bead in the live session.
 
+import { loadTrial } from '../../lab/loadTrial';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import { IS_TOUCH } from '../../ui/touch';
 import { mapFor, nextWords, type Policy } from './policyUse';
@@ -13,18 +14,11 @@ export async function usePolicy(
   if (!scene) return;
   const map = mapFor(trained, scene.map, lab.catalog.maps() ?? []);
   const parameters = { ...scene.parameters, rl_policy: reference };
-  const { seed } = scene;
   const answer =
     map === scene.map
       ? await lab.send('workspace', { type: 'configure', parameters })
-      : await lab.send('workspace', {
-          type: 'load_scenario',
-          map,
-          controller: 'rl',
-          seed,
-          parameters,
-        });
-  if (answer.kind !== 'done') return;
+      : await loadTrial(lab, 'workspace', { map, controller: 'rl', parameters });
+  if (answer?.kind !== 'done') return;
   await lab.send('workspace', { type: 'select_controller', controller: 'rl' });
   const state = lab.state();
   const now = { hasGoal: (state?.goal_m ?? null) !== null, running: state?.running ?? false };

@@ -1,8 +1,9 @@
 // The robot that the arm mirrors, and the button that lets it follow Ferry's controller while it is held.
 
-import { Show, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
+import { Show, createEffect, onCleanup, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import type { TwinStanding } from '../../net/protocol.gen';
+import { listen } from '../../ui/listen';
 import { createHold } from './hold';
 import { connectionWords, doubtWords, robotMotionWords } from '../../words/robot';
 import './twin.css';
@@ -14,25 +15,14 @@ function HoldButton(props: { lab: Session; twin: TwinStanding }): JSX.Element {
   const hold = createHold((press) => {
     lab.stream({ type: 'drive_robot', ...(press === undefined ? {} : { press }) });
   });
-  const release = (): void => {
-    hold.release();
-  };
   const isEnabled = (): boolean => lab.canOperate() && props.twin.trouble === null;
-  createEffect(
-    on(isEnabled, (enabled) => {
-      if (!enabled) release();
-    }),
-  );
+  createEffect(() => {
+    if (!isEnabled()) hold.release();
+  });
   // A page that cannot be seen holds nothing.
-  onMount(() => {
-    document.addEventListener('visibilitychange', release);
-    window.addEventListener('blur', release);
-  });
-  onCleanup(() => {
-    document.removeEventListener('visibilitychange', release);
-    window.removeEventListener('blur', release);
-    release();
-  });
+  listen('visibilitychange', hold.release);
+  listen('blur', hold.release);
+  onCleanup(hold.release);
   return (
     <button
       type="button"
@@ -45,22 +35,20 @@ function HoldButton(props: { lab: Session; twin: TwinStanding }): JSX.Element {
         event.currentTarget.setPointerCapture(event.pointerId);
         hold.press();
       }}
-      onPointerUp={release}
-      onPointerCancel={release}
-      onLostPointerCapture={release}
-      onContextMenu={(event) => {
-        // A long touch would open a menu.
-        event.preventDefault();
-      }}
+      onPointerUp={hold.release}
+      onPointerCancel={hold.release}
+      onLostPointerCapture={hold.release}
+      // A long touch would open a menu.
+      onContextMenu={(event) => event.preventDefault()}
       onKeyDown={(event) => {
         if (!isKey(event)) return;
         event.preventDefault();
         hold.press();
       }}
       onKeyUp={(event) => {
-        if (isKey(event)) release();
+        if (isKey(event)) hold.release();
       }}
-      onBlur={release}
+      onBlur={hold.release}
     >
       Hold to move the robot
     </button>

@@ -4,8 +4,8 @@
 const REPEAT_MS = 50;
 
 export interface Hold {
-  press(): void;
-  release(): void;
+  readonly press: () => void;
+  readonly release: () => void;
 }
 
 /** The server knows presses apart by their numbers, also those of other pages. */

@@ -1,18 +1,24 @@
 // The story of one event: why it happened, what the camera saw, and buttons to continue from there.
 
 import { eventWords } from '../../words/events';
-import { Match, Show, Switch, createEffect, createMemo, createResource, on } from 'solid-js';
+import { For, Match, Show, Switch, createEffect, createMemo, createResource, on } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
 import type { JSX } from 'solid-js';
-import { get } from '../../net/requests';
+import { get, type Refusal } from '../../net/requests';
 import { centimetres, clock } from '../../ui/format';
 import type { EventMessage, MomentMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
-import { eventTitle, isSameEvent, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
+import { eventTitle, isSameEvent, marginWords, sentence, whatItSaw } from '../../lab/eventStory';
 import { causeOfEvent } from '../../lab/failure';
 import type { Events, OpenTab, Session, Trial } from '../../lab/slices';
+import { CloseButton } from '../../ui/CloseButton';
 import './why.css';
 import { addressOf } from '../../net/base';
+
+const BESIDE = [
+  [-1, 'Previous event', '‹'],
+  [1, 'Next event', '›'],
+] as const;
 
 /** e on a scale from 0 to twice the limit. The limit is in the middle. */
 function MarginBar(props: { moment: MomentMessage }): JSX.Element {
@@ -32,13 +38,12 @@ function Story(props: {
   path: string;
   cause: string | undefined;
 }): JSX.Element {
-  const margin = createMemo(() => marginOf(props.moment));
   return (
     <>
       <Show when={props.cause}>{(cause) => <p class="why-cause">{cause()}</p>}</Show>
       <p class="why-margin-text number">
-        e {centimetres(margin().error_m)}, limit {centimetres(margin().threshold_m)}:{' '}
-        <strong>{margin().text}</strong>
+        e {centimetres(props.moment.error_m)}, limit {centimetres(props.moment.threshold_m)}:{' '}
+        <strong>{marginWords(props.moment)}</strong>
       </p>
       <MarginBar moment={props.moment} />
       <p>{whatItSaw(props.moment)}</p>
@@ -94,31 +99,20 @@ function Card(props: {
     >
       <header>
         <h2 id="why-title">{eventTitle(props.event)}</h2>
-        <button
-          type="button"
-          class="bare"
-          aria-label="Previous event"
-          disabled={isPast() || !beside(-1)}
-          onClick={() => {
-            lab.inspect(beside(-1));
-          }}
-        >
-          ‹
-        </button>
-        <button
-          type="button"
-          class="bare"
-          aria-label="Next event"
-          disabled={isPast() || !beside(1)}
-          onClick={() => {
-            lab.inspect(beside(1));
-          }}
-        >
-          ›
-        </button>
-        <button type="button" class="bare" aria-label="Close" onClick={close}>
-          ×
-        </button>
+        <For each={BESIDE}>
+          {([step, name, sign]) => (
+            <button
+              type="button"
+              class="bare"
+              aria-label={name}
+              disabled={isPast() || !beside(step)}
+              onClick={() => lab.inspect(beside(step))}
+            >
+              {sign}
+            </button>
+          )}
+        </For>
+        <CloseButton label="Close" onClose={close} />
       </header>
       <div class="why-body">
         <p class="why-sentence">{sentence(eventWords(props.event.what))}</p>
@@ -128,12 +122,10 @@ function Card(props: {
           </p>
         </Show>
         <Switch fallback={<p class="hint">Loading …</p>}>
-          <Match when={moment.error as unknown}>
-            {(error) => (
+          <Match when={moment.error as Refusal | undefined}>
+            {(refusal) => (
               <p class="hint" role="alert">
-                {error() instanceof Error
-                  ? (error() as Error).message
-                  : 'The server did not answer.'}
+                {refusal().detail}
               </p>
             )}
           </Match>

@@ -1,6 +1,7 @@
 // A button that shows a text beside it, also for touch and keyboard.
 
-import { createEffect, createSignal, onCleanup, type JSX } from 'solid-js';
+import { createEffect, createSignal, type JSX } from 'solid-js';
+import { listen } from '../listen';
 import { createPopover } from '../popover';
 
 const GAP_PX = 8;
@@ -25,12 +26,8 @@ export function Help(props: { id: string; of: string; text: string }): JSX.Eleme
   createEffect(() => {
     if (!open()) return;
     put();
-    addEventListener('scroll', put, true);
-    addEventListener('resize', put);
-    onCleanup(() => {
-      removeEventListener('scroll', put, true);
-      removeEventListener('resize', put);
-    });
+    listen('scroll', put, { capture: true });
+    listen('resize', put);
   });
   return (
     <span ref={box} class="help" onFocusOut={onFocusOut}>
