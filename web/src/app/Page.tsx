@@ -24,7 +24,7 @@ import { LazyRecordingsView } from '../features/recordings/LazyRecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
 import { createMapOpener } from '../features/maps/opener';
 import { LazyTrainView } from '../features/train/LazyTrainView';
-import type { TrainProps } from '../features/train/TrainView';
+import { showMap } from '../features/train/state';
 import { PlaybackBar } from '../features/playback/PlaybackBar';
 import { KeptRuns } from '../features/runs/KeptRuns';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
@@ -50,7 +50,6 @@ export function Page(): JSX.Element {
   const capture = createCapture(lab, picture, createPalette(theme));
   const opener = createMapOpener(lab);
   const drawing: DrawProps['kept'] = {};
-  const training: TrainProps['kept'] = {};
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
@@ -78,7 +77,7 @@ export function Page(): JSX.Element {
                   lab={lab}
                   opener={opener}
                   onTrain={() => {
-                    training.train?.showMap();
+                    showMap();
                     setView('train');
                   }}
                 />
@@ -117,7 +116,6 @@ export function Page(): JSX.Element {
         </Match>
         <Match when={view() === 'train'}>
           <LazyTrainView
-            kept={training}
             lab={lab}
             theme={theme}
             onLaboratory={() => {

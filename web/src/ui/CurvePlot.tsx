@@ -7,11 +7,26 @@ import type { Theme } from './theme';
 import { createCurve, type CurveContext, type CurveLine } from './curve';
 import './plot.css';
 
+/** What the colours of lines mean. */
+export function Keys(props: {
+  lines: readonly Pick<CurveLine, 'label' | 'color' | 'isDashed'>[];
+}): JSX.Element {
+  return (
+    <For each={props.lines}>
+      {(line) => (
+        <span class="key" data-color={line.color} data-dashed={line.isDashed ? '' : undefined}>
+          {line.label}
+        </span>
+      )}
+    </For>
+  );
+}
+
 export function CurvePlot(props: {
   title: string;
   unit: string;
   name: string;
-  keys: readonly CurveLine[];
+  keys?: readonly CurveLine[];
   theme: () => Theme;
   context: CurveContext;
   data: uPlot.AlignedData;
@@ -32,20 +47,20 @@ export function CurvePlot(props: {
     });
     createEffect(on(props.theme, () => plot.redraw(true), { defer: true }));
     // The curve itself does not change.
-    createEffect(on(props.context.rules, () => plot.redraw(false), { defer: true }));
+    createEffect(
+      on(
+        () => props.context.rules?.(),
+        () => plot.redraw(false),
+        { defer: true },
+      ),
+    );
   });
   return (
     <figure class="plot">
       <figcaption>
         <strong>{props.title}</strong>
         <span class="unit">{props.unit}</span>
-        <For each={props.keys}>
-          {(key) => (
-            <span class="key" data-color={key.color} data-dashed={key.isDashed ? '' : undefined}>
-              {key.label}
-            </span>
-          )}
-        </For>
+        <Keys lines={props.keys ?? []} />
       </figcaption>
       <div ref={root} class="plot-area" role="img" aria-label={props.name} />
     </figure>

@@ -35,7 +35,7 @@ export interface CurveContext {
   readonly palette: () => Palette;
   readonly lines: readonly CurveLine[];
   /** Pairs of lines, upper one first, with the area between them filled in the colour of the upper one. */
-  readonly bands: readonly (readonly [number, number])[];
+  readonly bands?: readonly (readonly [number, number])[];
   /** Pairs of lines whose points are joined by an error bar in the colour of the upper one. */
   readonly bars?: readonly (readonly [number, number])[];
   readonly xRange: () => [number, number];
@@ -44,9 +44,9 @@ export interface CurveContext {
   readonly xSplits?: (most: number) => number[];
   readonly xText: (value: number) => string;
   readonly yText: (value: number) => string;
-  readonly shades: () => readonly Shade[];
-  readonly rules: () => readonly Rule[];
-  readonly onCursor: (index: number | undefined) => void;
+  readonly shades?: () => readonly Shade[];
+  readonly rules?: () => readonly Rule[];
+  readonly onCursor?: (index: number | undefined) => void;
 }
 
 const FONT = '10px system-ui, sans-serif';
@@ -68,7 +68,7 @@ function translucent(color: string): string {
 function drawShades(u: uPlot, context: CurveContext): void {
   inside(u, (ctx) => {
     ctx.globalAlpha = SHADE_ALPHA;
-    for (const shade of context.shades()) {
+    for (const shade of context.shades?.() ?? []) {
       const from = u.valToPos(shade.from, 'x', true);
       const to = u.valToPos(shade.to, 'x', true);
       ctx.fillStyle = context.palette()[shade.color];
@@ -100,7 +100,7 @@ function drawRules(u: uPlot, context: CurveContext): void {
   inside(u, (ctx, ratio) => {
     ctx.lineWidth = ratio;
     ctx.font = `${11 * ratio}px system-ui, sans-serif`;
-    for (const rule of context.rules()) {
+    for (const rule of context.rules?.() ?? []) {
       ctx.strokeStyle = context.palette()[rule.color];
       ctx.fillStyle = context.palette()[rule.color];
       drawRule(u, rule, ctx, ratio);
@@ -191,7 +191,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
           points: { show: line.hasPoints ?? false, size: 5 },
         })),
       ],
-      bands: context.bands.map(([upper, lower]) => ({
+      bands: (context.bands ?? []).map(([upper, lower]) => ({
         series: [upper + 1, lower + 1],
         fill: () => translucent(context.palette()[context.lines[upper]?.color ?? 'text']),
       })),
@@ -209,7 +209,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
         ],
         setCursor: [
           (u) => {
-            context.onCursor(u.cursor.idx ?? undefined);
+            context.onCursor?.(u.cursor.idx ?? undefined);
           },
         ],
       },

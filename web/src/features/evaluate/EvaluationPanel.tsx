@@ -1,7 +1,10 @@
 // One evaluation: progress, rows, failures.
 
-import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
+import { For, Show, createMemo, on, type JSX } from 'solid-js';
+import { operatorOnly } from '../../lab/operatorOnly';
+import { createAttempt } from '../../ui/attempt';
 import { roughly } from '../../ui/format';
+import { SmallButton } from '../../ui/SmallButton';
 import type { Theme } from '../../ui/theme';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
@@ -60,23 +63,10 @@ export function EvaluationPanel(props: {
 }): JSX.Element {
   const { lab } = props;
   const report = createReport(() => props.summary);
-  const [refusal, setRefusal] = createSignal<string>();
-  createEffect(
-    on(
-      () => props.summary.id,
-      () => setRefusal(undefined),
-    ),
-  );
   const said = createMemo(() => milestone(props.summary));
   const measured = (): readonly EvaluationSummary[] => lab.catalog.evaluations() ?? [];
-  const cancel = async (): Promise<void> => {
-    setRefusal(undefined);
-    try {
-      await cancelEvaluation(props.summary.id);
-    } catch (reason) {
-      setRefusal(reason instanceof Error ? reason.message : String(reason));
-    }
-  };
+  /** One for each evaluation, so that a refusal is shown at its own. */
+  const cancelling = createMemo(on(() => props.summary.id, createAttempt));
   return (
     <section class="panel evaluation" aria-label={`Evaluation ${numberOf(props.summary.id)}`}>
       <header class="panel-head">
@@ -95,25 +85,21 @@ export function EvaluationPanel(props: {
           {stageWords(props.summary)}
         </span>
         <Show when={isActive(props.summary)}>
-          <button
-            type="button"
-            class="small"
-            disabled={!lab.canOperate()}
-            onClick={() => void cancel()}
+          <SmallButton
+            {...operatorOnly(lab)}
+            onClick={() => void cancelling().attempt(cancelEvaluation(props.summary.id))}
           >
             Cancel
-          </button>
+          </SmallButton>
         </Show>
       </header>
       <p class="visually-hidden" role="status" data-testid="evaluation-said">
         {said()}
       </p>
       <Progress summary={props.summary} measured={measured()} />
-      <div role="alert">
-        <Show when={refusal() ?? props.summary.message}>
-          {(text) => <p class="refusal">{text()}</p>}
-        </Show>
-      </div>
+      <p class="refusal" role="alert">
+        {cancelling().refusal() ?? props.summary.message}
+      </p>
       <Show when={report()}>
         {(now) => (
           <Show when={props.summary.id} keyed>

@@ -81,7 +81,7 @@ function Row(props: {
 
 export function VaryFields(props: {
   value: readonly VariedDraft[];
-  onInput: (value: VariedDraft[]) => void;
+  onInput: (value: readonly VariedDraft[]) => void;
 }): JSX.Element {
   const put = (index: number, value: VariedDraft | undefined): void => {
     const all = [...props.value.slice(0, index), value, ...props.value.slice(index + 1)];

@@ -42,9 +42,3 @@ export function ownName({ content, live, session, id }: RecordingFile): string {
 export function nameOf(file: RecordingFile): string {
   return file.title === null ? ownName(file) : shownName(file.title);
 }
-
-/** `1:02`: minutes and seconds. */
-export function duration(seconds: number): string {
-  const whole = Math.round(seconds);
-  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
-}

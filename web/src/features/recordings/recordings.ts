@@ -3,6 +3,7 @@
 import { createEffect, createSignal, on, onCleanup, type Accessor } from 'solid-js';
 import { get, patch, remove } from '../../net/requests';
 import type { RecordingFile, RecordingList, RecordingTitle } from '../../net/protocol.gen';
+import { messageOf } from '../../ui/attempt';
 
 const REFRESH_MS = 3000;
 
@@ -85,7 +86,7 @@ export function createRecordings(moved: Accessor<unknown>): Recordings {
       setList(recordings);
       setError(undefined);
     } catch (reason) {
-      if (!closed) setError(reason instanceof Error ? reason.message : String(reason));
+      if (!closed) setError(messageOf(reason));
     } finally {
       asking = false;
     }

@@ -11,10 +11,10 @@ import { ChoiceField } from '../../ui/fields/fields';
 import { CellCard } from './CellCard';
 import { basinWords, cellAt, cellWords, rowsOf } from './cells';
 import { looksOf } from './looks';
-import { createRecoveryList, isActive } from './recoveries';
+import { createShown, isActive } from './recoveries';
 import { RecoveryFigure } from './RecoveryFigure';
 import { RecoveryStart } from './RecoveryStart';
-import { type Arrangement, store } from './store';
+import * as store from './store';
 import './recovery.css';
 import { addressOf } from '../../net/base';
 
@@ -39,11 +39,11 @@ function pairsOf(names: readonly string[]): (readonly [number, number])[] {
 function Arrange(props: { report: RecoveryReport }): JSX.Element {
   const options = createMemo(() => {
     const names = props.report.names.map(labelOf);
-    const pairs = pairsOf(names).map((pair): [Arrangement, string] => [
+    const pairs = pairsOf(names).map((pair): [store.Arrangement, string] => [
       pair,
       `${names[pair[0]] ?? ''} minus ${names[pair[1]] ?? ''}`,
     ]);
-    return [['each', 'each controller'] as [Arrangement, string], ...pairs];
+    return [['each', 'each controller'] as [store.Arrangement, string], ...pairs];
   });
   return (
     <ChoiceField<string>
@@ -135,7 +135,6 @@ function Figures(props: { lab: Session & Trial & Notices; report: RecoveryReport
                   dropped={dropped()}
                   onChoose={(cell) => {
                     store.setChosen({ cell, name });
-                    store.setFront(name);
                   }}
                 />
               )}
@@ -169,11 +168,7 @@ function Earlier(props: {
         label="Recovery map"
         value={props.shown ?? ''}
         options={options()}
-        onChoose={(id) => {
-          store.setWanted(id);
-          store.setChosen(undefined);
-          store.setArrangement('each');
-        }}
+        onChoose={store.showRecovery}
       />
     </Show>
   );
@@ -182,15 +177,17 @@ function Earlier(props: {
 export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHand>): JSX.Element {
   const { lab } = props;
   const map = createMemo(() => lab.scene()?.map);
-  const list = createRecoveryList(lab.catalog, map);
-  const report = createMemo(() => {
-    const now = store.report();
-    return now && now.id === list.shown()?.id ? now : undefined;
-  });
+  const shown = createShown(lab.catalog, map);
+  const report = (): RecoveryReport | undefined =>
+    store.report()?.id === shown()?.id ? store.report() : undefined;
   return (
     <div class="recovery">
-      <RecoveryStart lab={lab} list={list} />
-      <Earlier all={list.all()} shown={list.shown()?.id} isHere={(one) => one.map === map()} />
+      <RecoveryStart lab={lab} shown={shown()} />
+      <Earlier
+        all={lab.catalog.recoveries() ?? []}
+        shown={shown()?.id}
+        isHere={(one) => one.map === map()}
+      />
       <PlaceNotice lab={lab} place="recovery" />
       <Show
         when={lab.sight() === 'all'}

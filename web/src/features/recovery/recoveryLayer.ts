@@ -8,7 +8,7 @@ import type { Palette } from '../../ui/palette';
 import type { Look } from './cells';
 import { cellAt, rowsOf } from './cells';
 import { looksOf } from './looks';
-import { store } from './store';
+import * as store from './store';
 
 const FAINTEST = 0.15;
 const DENSEST = 0.55;
@@ -108,7 +108,7 @@ export const RECOVERY_LAYER: MapLayer = {
       const report = store.report();
       if (report?.kind !== 'place' || report.map !== lab.scene()?.map) return [];
       const arrangement = store.arrangement();
-      const front = Math.max(0, report.names.indexOf(store.front() ?? ''));
+      const front = Math.max(0, report.names.indexOf(store.chosen()?.name ?? ''));
       const pair = arrangement === 'each' ? [front] : arrangement;
       const looks = looksOf(report, pair);
       const at = store.dropped();

@@ -8,7 +8,7 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import { counted, fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
-import { rangeAround, ROOM, updateSplits, updateText } from './curves';
+import { alongUpdates, rangeAround } from './curves';
 import { fanAt } from './grid';
 
 const LINE = { color: 'rl', joinsGaps: true } as const;
@@ -30,6 +30,7 @@ export function CellPanel(props: {
   const fan = createMemo(() => fanAt(props.frames, props.cell));
   const quantile = (index: number): readonly number[] => fan().quantiles[index] ?? [];
   const context: CurveContext = {
+    ...alongUpdates(() => props.total),
     palette: () => props.palette(),
     lines: [
       { ...LINE, label: '.95', isEdge: true },
@@ -42,12 +43,8 @@ export function CellPanel(props: {
       [0, 1],
       [2, 3],
     ],
-    xRange: () => [0, ROOM * props.total],
-    xSplits: (most) => updateSplits(props.total, most),
     yRange: rangeAround,
-    xText: updateText,
     yText: (value) => fixed(value, 2),
-    shades: () => [],
     rules: createMemo(() =>
       props.frame
         ? [{ axis: 'x', at: props.frame.update, label: '', color: 'text', dashed: true } as const]

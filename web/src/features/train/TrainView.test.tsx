@@ -2,7 +2,7 @@ import { Show, createSignal } from 'solid-js';
 import { expect, it } from 'vitest';
 import { page, userEvent } from 'vitest/browser';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
-import { type TrainProps, TrainView } from './TrainView';
+import { TrainView } from './TrainView';
 
 const button = (name: string | RegExp) => page.getByRole('button', { name });
 const name = page.getByLabelText('Policy name');
@@ -13,12 +13,10 @@ it('explains itself, and refuses a wrong name or setting at its field', async ()
   const { lab, server } = fakeLab({
     'POST /api/trainings': () => refusal('name: a shipped policy is called general', 'name'),
   });
-  const kept: TrainProps['kept'] = {};
   const [isOpen, setOpen] = createSignal(true);
   show(() => (
     <Show when={isOpen()}>
       <TrainView
-        kept={kept}
         lab={lab}
         theme={() => 'dark'}
         onLaboratory={() => undefined}

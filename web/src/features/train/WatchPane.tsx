@@ -9,48 +9,41 @@ import {
   onCleanup,
   type JSX,
 } from 'solid-js';
-import type { Vec2 } from '../../lab/geometry';
 import { checkOfMap } from '../../lab/maps';
 import type { MapCheck, TrainingFrame } from '../../net/protocol.gen';
 import { isActive, progressWords } from '../../lab/trainingStage';
+import { createAttempt } from '../../ui/attempt';
 import { counted } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
+import { SmallButton } from '../../ui/SmallButton';
 import type { Theme } from '../../ui/theme';
 import { IS_TOUCH } from '../../ui/touch';
 import { CellPanel } from './CellPanel';
 import { Facts } from './Facts';
 import { cellAt } from './grid';
 import type { Live } from './live';
-import type { TrainState } from './state';
+import { layers, place_m, setPlace } from './state';
 import { TrainingPlan } from './TrainingPlan';
 import { ValueScale } from './TrainLegend';
 
 const PLAY_MS = 350;
 
-interface PaneProps {
-  readonly live: Live;
+export function WatchPane(props: {
+  live: Live;
   /** What the training does, one sentence. */
-  readonly sentence: string;
+  sentence: string;
   /** The values of the first and the last colour. */
-  readonly range: readonly [number, number] | undefined;
+  range: readonly [number, number] | undefined;
   /** Whether more value maps may widen the range. */
-  readonly isGrowing: boolean;
-  readonly state: TrainState;
-  readonly palette: () => Palette;
-  readonly theme: () => Theme;
-}
-
-export function WatchPane(props: PaneProps): JSX.Element {
-  const { live, state } = props;
+  isGrowing: boolean;
+  palette: () => Palette;
+  theme: () => Theme;
+}): JSX.Element {
+  const { live } = props;
   const help = createUniqueId();
   const [map, setMap] = createSignal<MapCheck>();
-  /** Why the walls are missing. */
-  const [mapError, setMapError] = createSignal<string>();
-  checkOfMap(live.summary().query.map)
-    .then(setMap)
-    .catch((reason: unknown) => {
-      setMapError(reason instanceof Error ? reason.message : String(reason));
-    });
+  const walls = createAttempt();
+  void walls.attempt(checkOfMap(live.summary().query.map).then(setMap));
   /** Index of the shown value map; undefined: the newest. */
   const [at, setAt] = createSignal<number>();
   const [isPlaying, setPlaying] = createSignal(false);
@@ -76,7 +69,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
     });
   });
   const cell = createMemo(() => {
-    const [cells, place] = [live.cells(), state.place_m()];
+    const [cells, place] = [live.cells(), place_m()];
     return cells && place && cellAt(cells, place);
   });
   createEffect(() => {
@@ -89,9 +82,6 @@ export function WatchPane(props: PaneProps): JSX.Element {
     scrubber.value = String(index());
   });
   const name = (): string => live.summary().query.name;
-  const choose = (place: Vec2): void => {
-    state.setPlace(place);
-  };
   const empty = (): string =>
     isActive(live.summary())
       ? `${props.sentence} The first value map comes with the first updates.`
@@ -117,9 +107,9 @@ export function WatchPane(props: PaneProps): JSX.Element {
           cells={live.cells()}
           frame={frame()}
           range={props.range}
-          layers={state.layers()}
+          layers={layers()}
           chosen={cell()}
-          onChoose={choose}
+          onChoose={setPlace}
         />
         <Show when={count() === 0}>
           <p class="train-veil">{empty()}</p>
@@ -127,9 +117,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
       </div>
       <ValueScale range={props.range} isGrowing={props.isGrowing} />
       <div class="train-time">
-        <button
-          type="button"
-          class="small"
+        <SmallButton
           aria-label={`${isPlaying() ? 'Stop' : 'Play'} the value maps of ${name()}`}
           disabled={count() < 2}
           onClick={() => {
@@ -138,7 +126,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
           }}
         >
           {isPlaying() ? 'Stop' : 'Play'}
-        </button>
+        </SmallButton>
         <input
           ref={scrubber}
           type="range"
@@ -152,9 +140,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
             setAt(currentTarget.valueAsNumber);
           }}
         />
-        <button
-          type="button"
-          class="small"
+        <SmallButton
           aria-label={`Follow the newest value map of ${name()}`}
           aria-pressed={at() === undefined}
           onClick={() => {
@@ -163,13 +149,13 @@ export function WatchPane(props: PaneProps): JSX.Element {
           }}
         >
           Newest
-        </button>
+        </SmallButton>
         <output class="number" aria-live="off" data-testid="train-update">
           {words()}
         </output>
       </div>
       <p class="refusal" role="alert">
-        {live.error() ?? mapError()}
+        {live.error() ?? walls.refusal()}
       </p>
       <Facts summary={live.summary()} points={live.points()} frame={frame()} />
       <p id={help} class="hint">

@@ -1,6 +1,7 @@
 // Value maps of a training, read one by one and kept: they never change.
 
 import type { TrainingFrame } from '../../net/protocol.gen';
+import { messageOf } from '../../ui/attempt';
 
 /** More at a time would delay the one that is shown. */
 const MOST_REQUESTS = 2;
@@ -79,7 +80,7 @@ export class FrameCache {
     try {
       this.frames.set(index, await this.load(index));
     } catch (reason) {
-      why = reason instanceof Error ? reason.message : String(reason);
+      why = messageOf(reason);
     }
     if (!this.isClosed) this.listener.failed(why);
     // Its place stays taken for a while, so that an unreachable server gets few requests.

@@ -10,6 +10,7 @@ import type {
   TrainingSummary,
 } from '../../net/protocol.gen';
 import { get } from '../../net/requests';
+import { messageOf } from '../../ui/attempt';
 import { FrameCache } from './frames';
 import { isActive } from '../../lab/trainingStage';
 import { TRAININGS, trainingPath } from './trainings';
@@ -59,8 +60,7 @@ export function createLive(
         setError(undefined);
       } catch (reason) {
         // A training that was cancelled early has none.
-        if (isActive(summary()))
-          setError(reason instanceof Error ? reason.message : String(reason));
+        if (isActive(summary())) setError(messageOf(reason));
       }
       isAsking = false;
     }),
