@@ -1,9 +1,15 @@
 // The Train view: a policy learns a map, and you watch it.
 
-import { For, Show, createMemo, mapArray, type JSX } from 'solid-js';
+import { Show, createMemo, type JSX } from 'solid-js';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import { isActive, milestone, stageSentence } from '../../lab/trainingStage';
-import type { PolicySummary, TrainingSummary } from '../../net/protocol.gen';
+import { createDetail } from '../../net/detail';
+import type {
+  PolicySummary,
+  TrainingPoint,
+  TrainingReport,
+  TrainingSummary,
+} from '../../net/protocol.gen';
 import { ForKeyed } from '../../ui/ForKeyed';
 import { createPalette } from '../../ui/palette';
 import { Panel } from '../../ui/Panel';
@@ -12,13 +18,13 @@ import { colourRange } from './colourRange';
 import { Curves } from './Curves';
 import { withLast } from './curves';
 import { FoldedIntro, Intro } from './Intro';
-import { createLive } from './live';
 import { PoliciesPanel } from './PoliciesPanel';
 import { policyOf } from './policyUse';
 import { StartPanel } from './StartPanel';
 import { choose, chosen, compare, compared } from './state';
 import { TrainingEntry } from './TrainingEntry';
 import { LayerToggles, Marks, Readings } from './TrainLegend';
+import { TRAININGS } from './trainings';
 import { usePolicy } from './usePolicy';
 import { WatchPane } from './WatchPane';
 import './train.css';
@@ -50,23 +56,21 @@ export function TrainView(props: TrainProps): JSX.Element {
       0,
       all().findIndex((one) => one.id === id),
     );
-  /** The chosen training, otherwise the newest, and the one beside it. */
-  const shown = createMemo(() => (byId(chosen()) ?? all().at(-1))?.id);
-  const beside = createMemo(() => byId(compared())?.id);
-  const watched = createMemo(() => [shown(), beside()].filter((id) => id !== undefined), [], {
-    equals: (a, b) => a.join() === b.join(),
-  });
-  const points = lab.catalog.watch(shown);
-  const lives = createMemo(
-    mapArray(watched, (id) => {
-      // The last summary stays while the training is removed.
-      const first = byId(id);
-      if (!first) throw new Error(`${id} is not in the list`);
-      const summary = createMemo<TrainingSummary>((last) => byId(id) ?? last, first);
-      return createLive(summary, () => (shown() === id ? points() : undefined));
-    }),
+  /** The chosen training, otherwise the newest. */
+  const shown = createMemo(() => byId(chosen()) ?? all().at(-1));
+  const shownId = createMemo(() => shown()?.id);
+  /** The one beside it. */
+  const beside = createMemo(() => byId(compared()));
+  const watched = createMemo(() => [shown(), beside()].filter((one) => one !== undefined));
+  const newest = lab.catalog.watch(shownId);
+  const report = createDetail<TrainingSummary, TrainingReport>(
+    TRAININGS,
+    beside,
+    ({ id, stage, updates }) => [id, stage, updates].join(' '),
   );
-  const range = createMemo(() => colourRange(lives().map((live) => live.summary())), undefined, {
+  const pointsOf = ({ id }: TrainingSummary): readonly TrainingPoint[] =>
+    id === shownId() ? newest() : (report()?.curve ?? []);
+  const range = createMemo(() => colourRange(watched()), undefined, {
     equals: (a, b) => a?.join() === b?.join(),
   });
   const trained = ({ policy }: TrainingSummary): PolicySummary | undefined =>
@@ -85,7 +89,7 @@ export function TrainView(props: TrainProps): JSX.Element {
     window.scrollTo(0, 0);
   };
   const said = createMemo(() => {
-    const summary = byId(shown());
+    const summary = shown();
     return summary ? milestone(summary, before(summary)) : '';
   });
   let view!: HTMLElement;
@@ -112,8 +116,8 @@ export function TrainView(props: TrainProps): JSX.Element {
                   lab={lab}
                   summary={summary()}
                   before={before(summary())}
-                  isShown={shown() === summary().id}
-                  isCompared={beside() === summary().id}
+                  isShown={shownId() === summary().id}
+                  isCompared={beside()?.id === summary().id}
                   isDeleted={summary().policy !== null && !trained(summary())}
                   onChoose={() => {
                     const { id } = summary();
@@ -122,8 +126,8 @@ export function TrainView(props: TrainProps): JSX.Element {
                   }}
                   onCompare={() => {
                     const { id } = summary();
-                    choose(shown());
-                    compare(beside() === id ? undefined : id);
+                    choose(shownId());
+                    compare(beside()?.id === id ? undefined : id);
                   }}
                   onUse={() => {
                     use(trained(summary()), [summary().query.map]);
@@ -143,50 +147,51 @@ export function TrainView(props: TrainProps): JSX.Element {
       {/* With the list, so that nothing moves when that arrives. */}
       <Show when={lab.catalog.trainings()}>
         <div class="train-right">
-          <Show when={lives().length > 0} fallback={<Intro />}>
+          <Show when={watched().length > 0} fallback={<Intro />}>
             <Panel class="train-watch" name="Value map" head={<LayerToggles />}>
               <p class="hint">
                 What the policy expects from each place: the sum of all later rewards on the route
                 to the goal. Arrows show the best step.
               </p>
               <Marks />
-              <div class="train-panes" data-count={lives().length}>
-                <For each={lives()}>
-                  {(live) => (
+              <div class="train-panes" data-count={watched().length}>
+                <ForKeyed each={watched()} by={({ id }) => id}>
+                  {(summary) => (
                     <WatchPane
-                      live={live}
-                      sentence={stageSentence(live.summary(), before(live.summary()))}
+                      summary={summary()}
+                      points={pointsOf(summary())}
+                      sentence={stageSentence(summary(), before(summary()))}
                       range={range()}
-                      isGrowing={lives().some((one) => isActive(one.summary()))}
+                      isGrowing={watched().some(isActive)}
                       palette={palette}
                       theme={props.theme}
                     />
                   )}
-                </For>
+                </ForKeyed>
               </div>
               <Readings />
             </Panel>
             <Panel name="Curves">
-              <Show when={lives()} keyed>
-                {(now) => (
-                  <Curves
-                    curves={now.map((live) => {
-                      const { query, stage, updates, updates_total, examined } = live.summary();
-                      return {
-                        name: query.name,
-                        points: withLast(
-                          live.points(),
-                          updates,
-                          stage === 'done' ? examined : null,
-                        ),
-                        total: updates_total,
-                        isOver: !isActive({ stage }),
-                      };
-                    })}
-                    palette={palette}
-                    theme={props.theme}
-                  />
-                )}
+              <Show
+                when={watched()
+                  .map(({ id }) => id)
+                  .join()}
+                keyed
+              >
+                <Curves
+                  curves={watched().map((summary) => ({
+                    name: summary.query.name,
+                    points: withLast(
+                      pointsOf(summary),
+                      summary.updates,
+                      summary.stage === 'done' ? summary.examined : null,
+                    ),
+                    total: summary.updates_total,
+                    isOver: !isActive(summary),
+                  }))}
+                  palette={palette}
+                  theme={props.theme}
+                />
               </Show>
             </Panel>
             <FoldedIntro />

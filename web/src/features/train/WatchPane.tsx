@@ -10,7 +10,12 @@ import {
   type JSX,
 } from 'solid-js';
 import { checkOfMap } from '../../lab/maps';
-import type { MapCheck, TrainingFrame } from '../../net/protocol.gen';
+import type {
+  MapCheck,
+  TrainingFrame,
+  TrainingPoint,
+  TrainingSummary,
+} from '../../net/protocol.gen';
 import { isActive, progressWords } from '../../lab/trainingStage';
 import { createAttempt } from '../../ui/attempt';
 import { counted } from '../../ui/format';
@@ -21,15 +26,17 @@ import { IS_TOUCH } from '../../ui/touch';
 import { CellPanel } from './CellPanel';
 import { Facts } from './Facts';
 import { cellAt } from './grid';
-import type { Live } from './live';
 import { layers, place_m, setPlace } from './state';
 import { TrainingPlan } from './TrainingPlan';
 import { ValueScale } from './TrainLegend';
+import { coarseToFine, createValueMaps } from './valueMaps';
 
 const PLAY_MS = 350;
 
 export function WatchPane(props: {
-  live: Live;
+  /** Its id stays the same. */
+  summary: TrainingSummary;
+  points: readonly TrainingPoint[];
   /** What the training does, one sentence. */
   sentence: string;
   /** The values of the first and the last colour. */
@@ -39,20 +46,36 @@ export function WatchPane(props: {
   palette: () => Palette;
   theme: () => Theme;
 }): JSX.Element {
-  const { live } = props;
   const help = createUniqueId();
   const [map, setMap] = createSignal<MapCheck>();
   const walls = createAttempt();
-  void walls.attempt(checkOfMap(live.summary().query.map).then(setMap));
+  void walls.attempt(checkOfMap(props.summary.query.map).then(setMap));
   /** Index of the shown value map; undefined: the newest. */
   const [at, setAt] = createSignal<number>();
   const [isPlaying, setPlaying] = createSignal(false);
-  const count = createMemo(() => live.summary().frames);
+  const count = createMemo(() => props.summary.frames);
   const last = (): number => Math.max(0, count() - 1);
   const index = createMemo(() => Math.min(at() ?? last(), last()));
+  const maps = createValueMaps(
+    () => props.summary,
+    // All of them for the fan of a cell.
+    () =>
+      [index(), ...(cell() === undefined ? [] : coarseToFine(count()))].filter(
+        (one) => one < count(),
+      ),
+  );
+  const cell = createMemo(() => {
+    const [cells, place] = [maps.cells(), place_m()];
+    return cells && place && cellAt(cells, place);
+  });
   // The one before stays until the next one has arrived.
-  const frame = createMemo<TrainingFrame | undefined>((before) => live.frame(index()) ?? before);
-  const isLoaded = (): boolean => live.frame(index()) !== undefined;
+  const frame = createMemo<TrainingFrame | undefined>(
+    (before) => maps.frames().get(index()) ?? before,
+  );
+  const inOrder = createMemo(() =>
+    [...maps.frames()].sort(([a], [b]) => a - b).map(([, frame]) => frame),
+  );
+  const isLoaded = (): boolean => maps.frames().has(index());
   createEffect(() => {
     if (!isPlaying()) return;
     const timer = setInterval(() => {
@@ -68,43 +91,36 @@ export function WatchPane(props: {
       clearInterval(timer);
     });
   });
-  const cell = createMemo(() => {
-    const [cells, place] = [live.cells(), place_m()];
-    return cells && place && cellAt(cells, place);
-  });
-  createEffect(() => {
-    if (cell() !== undefined) live.readAll();
-  });
   let scrubber!: HTMLInputElement;
   createEffect(() => {
     // In this order: a value above the limit would be lowered to it.
     scrubber.max = String(last());
     scrubber.value = String(index());
   });
-  const name = (): string => live.summary().query.name;
+  const name = (): string => props.summary.query.name;
   const empty = (): string =>
-    isActive(live.summary())
+    isActive(props.summary)
       ? `${props.sentence} The first value map comes with the first updates.`
       : 'This training has no value maps.';
   const words = (): string => {
     const now = frame();
     if (now) return `after ${counted(now.update, 'update')}`;
-    return isActive(live.summary()) ? 'no value map yet' : '–';
+    return isActive(props.summary) ? 'no value map yet' : '–';
   };
   return (
     <section class="train-pane" aria-label={name()}>
       <h3>
         {name()}
-        <span class="about">{live.summary().query.map}</span>
-        <span class="train-now about number">{progressWords(live.summary())}</span>
+        <span class="about">{props.summary.query.map}</span>
+        <span class="train-now about number">{progressWords(props.summary)}</span>
       </h3>
       <div class="train-picture">
         <TrainingPlan
-          label={`Plan of ${live.summary().query.map} with the values of ${name()}`}
+          label={`Plan of ${props.summary.query.map} with the values of ${name()}`}
           helpId={help}
           palette={props.palette()}
           map={map()}
-          cells={live.cells()}
+          cells={maps.cells()}
           frame={frame()}
           range={props.range}
           layers={layers()}
@@ -155,9 +171,9 @@ export function WatchPane(props: {
         </output>
       </div>
       <p class="refusal" role="alert">
-        {live.error() ?? walls.refusal()}
+        {maps.error() ?? walls.refusal()}
       </p>
-      <Facts summary={live.summary()} points={live.points()} frame={frame()} />
+      <Facts summary={props.summary} points={props.points} frame={frame()} />
       <p id={help} class="hint">
         <Show
           when={cell() === undefined}
@@ -169,16 +185,16 @@ export function WatchPane(props: {
           its value changes with the updates.
         </Show>
       </p>
-      <Show when={live.cells()}>
+      <Show when={maps.cells()}>
         {(cells) => (
           <Show when={cell() !== undefined}>
             <CellPanel
               cells={cells()}
               cell={cell() ?? 0}
               frame={frame()}
-              frames={live.frames()}
+              frames={inOrder()}
               count={count()}
-              total={live.summary().updates_total}
+              total={props.summary.updates_total}
               palette={props.palette}
               theme={props.theme}
             />
