@@ -3,7 +3,6 @@
 import { For, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import type { Theme } from './theme';
 import { createCurve, type CurveContext, type CurveLine } from './curve';
 import './plot.css';
 
@@ -27,7 +26,6 @@ export function CurvePlot(props: {
   unit: string;
   name: string;
   keys?: readonly CurveLine[];
-  theme: () => Theme;
   context: CurveContext;
   data: uPlot.AlignedData;
 }): JSX.Element {
@@ -45,7 +43,7 @@ export function CurvePlot(props: {
     createEffect(() => {
       plot.setData(props.data);
     });
-    createEffect(on(props.theme, () => plot.redraw(true), { defer: true }));
+    createEffect(on(props.context.palette, () => plot.redraw(true), { defer: true }));
     // The curve itself does not change.
     createEffect(
       on(

@@ -6,7 +6,6 @@ import { CurvePlot } from './CurvePlot';
 import { fixed } from './format';
 import type { Palette } from './palette';
 import { columnsOf, type Measure, type Points, readWords } from './series';
-import type { Theme } from './theme';
 
 /** The common axis. */
 export interface Along extends Pick<CurveContext, 'xRange' | 'xSplits' | 'xText'> {
@@ -27,7 +26,6 @@ export function SeriesPlot(props: {
   /** What is said while nothing is read; without, the last values. */
   help?: string | undefined;
   palette: () => Palette;
-  theme: () => Theme;
 }): JSX.Element {
   const { measure, along } = props;
   const [pointed, setPointed] = createSignal<number>();
@@ -66,7 +64,6 @@ export function SeriesPlot(props: {
         title={measure.title}
         unit={measure.unit}
         name={`${measure.title} over ${along.words}, ${measure.unit}. ${last()}`}
-        theme={props.theme}
         context={context}
         data={data()}
       />

@@ -182,7 +182,6 @@ function Errors(
       unit="cm"
       name="Error norm of each controller over time since the moment"
       keys={keys()}
-      theme={props.theme}
       context={context}
       data={columns(props.comparison, props.tick_s)}
     />

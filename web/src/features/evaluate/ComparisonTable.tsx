@@ -1,19 +1,12 @@
 // Differences between two controllers in the same trials.
 
 import type { JSX } from 'solid-js';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { labelOf } from '../../lab/parameters';
 import type { Comparison, PairedMean } from '../../net/protocol.gen';
 import { type Column, Table } from '../../ui/Table';
 import { difference } from './table';
 import { variedWords } from './varied';
 import './tables.css';
-
-/** Programs have their own names. */
-const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
-
-function label(controller: string): string {
-  return LABELS.get(controller) ?? controller;
-}
 
 function paired(mean: PairedMean | null, scale: number, digits: number): string {
   return mean === null ? '–' : difference(mean.mean, mean.interval95, scale, digits);
@@ -23,7 +16,7 @@ const COLUMNS: readonly Column<Comparison>[] = [
   {
     name: 'First − second',
     isHead: true,
-    cell: (one) => `${label(one.controller)} − ${label(one.against)}`,
+    cell: (one) => `${labelOf(one.controller)} − ${labelOf(one.against)}`,
   },
   {
     name: 'Map',

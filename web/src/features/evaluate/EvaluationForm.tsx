@@ -3,8 +3,8 @@
 import { Show, createMemo, type JSX } from 'solid-js';
 import {
   CONTROLLERS,
-  CONTROLLER_LABELS,
   FIELDS,
+  labelOf,
   type PolicyField,
   policyOptions,
 } from '../../lab/parameters';
@@ -15,7 +15,6 @@ import type { EvaluationSummary } from '../../net/protocol.gen';
 import { CheckField, ChoiceField, NumberField, type Option } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
 import { roughly } from '../../ui/format';
-import { shownName } from '../../ui/name';
 import { change, draft, edits } from './draft';
 import { startEvaluation } from './evaluations';
 import { chooseControllers, estimate_s, queryOf, sizeWords } from './request';
@@ -23,7 +22,6 @@ import { VaryFields } from './VaryFields';
 import './EvaluationForm.css';
 
 const DISTURBANCES = [0, 3] as const;
-const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
 
 export function EvaluationForm(props: {
   lab: Session & Trial;
@@ -61,7 +59,7 @@ export function EvaluationForm(props: {
         missing="Choose at least one controller."
         all={[...CONTROLLERS, ...programs()]}
         value={[...draft().controllers, draft().program].filter((name) => name !== '')}
-        text={(name) => LABELS.get(name) ?? shownName(name)}
+        text={labelOf}
         onChoose={(chosen) => {
           change(chooseControllers(chosen, draft().program));
         }}

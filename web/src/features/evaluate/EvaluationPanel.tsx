@@ -11,7 +11,6 @@ import { ComparisonTable } from './ComparisonTable';
 import { cancelEvaluation, createReport } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
-import { LazyRobustnessPlots } from './LazyRobustnessPlots';
 import {
   episodesDone,
   episodesInAll,
@@ -22,6 +21,7 @@ import {
   stageWords,
   subject,
 } from './progress';
+import { RobustnessPlots } from './RobustnessPlots';
 import { reportAddress, REPORTS } from './table';
 import type { Session, Trial } from '../../lab/slices';
 import './EvaluationPanel.css';
@@ -102,8 +102,8 @@ export function EvaluationPanel(props: {
       </p>
       <Show when={report()}>
         {(now) => (
-          <Show when={props.summary.id} keyed>
-            <LazyRobustnessPlots summary={props.summary} rows={now().rows} theme={props.theme} />
+          <Show when={props.summary.query.vary.length > 0 && props.summary.id} keyed>
+            <RobustnessPlots summary={props.summary} rows={now().rows} theme={props.theme} />
           </Show>
         )}
       </Show>

@@ -105,13 +105,11 @@ function Grid(props: { picture: Picture; line: Line; names: readonly string[] })
   );
 }
 
-export interface RobustnessProps {
-  readonly summary: EvaluationSummary;
-  readonly rows: readonly Row[];
-  readonly theme: () => Theme;
-}
-
-export function RobustnessPlots(props: RobustnessProps): JSX.Element {
+export function RobustnessPlots(props: {
+  summary: EvaluationSummary;
+  rows: readonly Row[];
+  theme: () => Theme;
+}): JSX.Element {
   const palette = createPalette(() => props.theme());
   const pictures = createMemo(() => picturesOf(props.summary.cells, props.rows));
   const names = createMemo(() => props.summary.query.vary.map(({ name }) => name));
@@ -149,7 +147,6 @@ export function RobustnessPlots(props: RobustnessProps): JSX.Element {
                     points={pointsOf(measure, picture())}
                     along={alongParameter(names()[0] ?? '', picture)}
                     palette={palette}
-                    theme={props.theme}
                   />
                 )}
               </For>

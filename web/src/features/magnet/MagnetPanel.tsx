@@ -174,7 +174,6 @@ function Magnet(props: {
         title="Pull"
         unit="of weight"
         name={`Lift, pull and friction over the offset toward ${side()}; the bead is ${fixed(100 * (distance_m() ?? 0), 1)} cm away`}
-        theme={props.theme}
         keys={pullContext.lines}
         context={pullContext}
         data={pullData()}
@@ -183,7 +182,6 @@ function Magnet(props: {
         title="Capture by height"
         unit="cm"
         name="Captured offsets over the height of the block's lower face"
-        theme={props.theme}
         keys={[{ label: 'lift-off', color: 'danger' }]}
         context={reachContext}
         data={reachData()}

@@ -1,7 +1,7 @@
 // The tab *Recovery*: from where the bead is still delivered after a disturbance.
 
 import { For, Show, createMemo, type JSX } from 'solid-js';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { labelOf } from '../../lab/parameters';
 import type { PanelProps } from '../../lab/panel';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { ByHand, Notices, Session, Trial } from '../../lab/slices';
@@ -9,17 +9,13 @@ import type { RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
 import { clock, counted } from '../../ui/format';
 import { ChoiceField } from '../../ui/fields/fields';
 import { CellCard } from './CellCard';
-import { basinWords, cellAt, cellWords, rowsOf } from './cells';
-import { looksOf } from './looks';
+import { basinWords, cellAt, cellWords, looksOf, rowsOf } from './cells';
 import { createShown, isActive } from './recoveries';
 import { RecoveryFigure } from './RecoveryFigure';
 import { RecoveryStart } from './RecoveryStart';
 import * as store from './store';
 import './recovery.css';
 import { addressOf } from '../../net/base';
-
-const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
-const labelOf = (name: string): string => LABELS.get(name) ?? name;
 
 function progressWords({ stage, done, planned, message }: RecoverySummary): string {
   const counts = `${done} of ${counted(planned, 'trial')}`;

@@ -5,9 +5,7 @@ import type { Session, Trial } from '../../lab/slices';
 import type { LayerContext, MapLayer } from '../../plan/layer';
 import { pxFromWorld, type View } from '../../plan/transform';
 import type { Palette } from '../../ui/palette';
-import type { Look } from './cells';
-import { cellAt, rowsOf } from './cells';
-import { looksOf } from './looks';
+import { cellAt, type Look, looksOf, rowsOf } from './cells';
 import * as store from './store';
 
 const FAINTEST = 0.15;

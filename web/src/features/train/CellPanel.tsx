@@ -7,7 +7,6 @@ import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
 import { counted, fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
-import type { Theme } from '../../ui/theme';
 import { alongUpdates, rangeAround } from './curves';
 import { fanAt } from './grid';
 
@@ -24,7 +23,6 @@ export function CellPanel(props: {
   /** Updates at the end of the training. */
   total: number;
   palette: () => Palette;
-  theme: () => Theme;
 }): JSX.Element {
   const [pointed, setPointed] = createSignal<number>();
   const fan = createMemo(() => fanAt(props.frames, props.cell));
@@ -85,7 +83,6 @@ export function CellPanel(props: {
         title="Expected return at this cell"
         unit="over the updates"
         name={`Quantiles of the return at this cell over the updates: ${counted(props.frames.length, 'value map')} of ${props.count}`}
-        theme={props.theme}
         keys={[{ label: 'median', color: 'rl' }]}
         context={context}
         data={data()}

@@ -5,7 +5,6 @@ import type { TrainingPoint } from '../../net/protocol.gen';
 import { Keys } from '../../ui/CurvePlot';
 import type { Palette } from '../../ui/palette';
 import { SeriesPlot } from '../../ui/SeriesPlot';
-import type { Theme } from '../../ui/theme';
 import { alongUpdates, firstWords, type Kind, KINDS } from './curves';
 
 /** One training of the plots. */
@@ -27,7 +26,6 @@ export function Curves(props: {
   /** One or two. Their number does not change. */
   curves: readonly Curve[];
   palette: () => Palette;
-  theme: () => Theme;
 }): JSX.Element {
   const lines = () =>
     STYLES.slice(0, props.curves.length).map((style, index) => ({
@@ -60,7 +58,6 @@ export function Curves(props: {
               along={alongUpdates(total)}
               help={help(kind)}
               palette={props.palette}
-              theme={props.theme}
             />
           )}
         </For>

@@ -10,7 +10,6 @@ import { FileButton } from '../../ui/FileButton';
 import { ForKeyed } from '../../ui/ForKeyed';
 import type { Palette } from '../../ui/palette';
 import { Panel } from '../../ui/Panel';
-import type { Theme } from '../../ui/theme';
 import { PolicyRow } from './PolicyRow';
 import { policyOf } from './policyUse';
 import { uploadPolicy } from './trainings';
@@ -21,7 +20,6 @@ const ENDING = '.safetensors';
 export function PoliciesPanel(props: {
   lab: Session & Trial;
   palette: () => Palette;
-  theme: () => Theme;
   onUse: (policy: PolicySummary, maps: readonly string[]) => void;
 }): JSX.Element {
   const { lab } = props;
@@ -81,7 +79,6 @@ export function PoliciesPanel(props: {
                   isUsed={used() === policy().name}
                   attempt={attempt}
                   palette={props.palette}
-                  theme={props.theme}
                   onUse={() => {
                     props.onUse(policy(), policy().maps);
                   }}

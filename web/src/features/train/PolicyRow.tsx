@@ -7,7 +7,6 @@ import { ConfirmButton } from '../../ui/ConfirmButton';
 import { roughly } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import { SmallButton } from '../../ui/SmallButton';
-import type { Theme } from '../../ui/theme';
 import { createRenaming, TitleForm } from '../../ui/TitleForm';
 import { operatorOnly } from '../../lab/operatorOnly';
 import { policyName } from '../../lab/parameters';
@@ -27,7 +26,6 @@ interface RowProps {
   readonly attempt: Attempt;
   readonly onUse: () => void;
   readonly palette: () => Palette;
-  readonly theme: () => Theme;
 }
 
 function originWords({ query, elapsed_s }: PolicyOrigin): string {
@@ -59,7 +57,6 @@ function Origin(props: RowProps & { origin: PolicyOrigin }): JSX.Element {
             },
           ]}
           palette={props.palette}
-          theme={props.theme}
         />
       </Show>
     </details>

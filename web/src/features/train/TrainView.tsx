@@ -164,7 +164,6 @@ export function TrainView(props: TrainProps): JSX.Element {
                       range={range()}
                       isGrowing={watched().some(isActive)}
                       palette={palette}
-                      theme={props.theme}
                     />
                   )}
                 </ForKeyed>
@@ -190,13 +189,12 @@ export function TrainView(props: TrainProps): JSX.Element {
                     isOver: !isActive(summary),
                   }))}
                   palette={palette}
-                  theme={props.theme}
                 />
               </Show>
             </Panel>
             <FoldedIntro />
           </Show>
-          <PoliciesPanel lab={lab} palette={palette} theme={props.theme} onUse={use} />
+          <PoliciesPanel lab={lab} palette={palette} onUse={use} />
         </div>
       </Show>
     </main>

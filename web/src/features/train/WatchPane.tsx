@@ -21,7 +21,6 @@ import { createAttempt } from '../../ui/attempt';
 import { counted } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import { SmallButton } from '../../ui/SmallButton';
-import type { Theme } from '../../ui/theme';
 import { IS_TOUCH } from '../../ui/touch';
 import { CellPanel } from './CellPanel';
 import { Facts } from './Facts';
@@ -44,7 +43,6 @@ export function WatchPane(props: {
   /** Whether more value maps may widen the range. */
   isGrowing: boolean;
   palette: () => Palette;
-  theme: () => Theme;
 }): JSX.Element {
   const help = createUniqueId();
   const [map, setMap] = createSignal<MapCheck>();
@@ -196,7 +194,6 @@ export function WatchPane(props: {
               count={count()}
               total={props.summary.updates_total}
               palette={props.palette}
-              theme={props.theme}
             />
           </Show>
         )}
