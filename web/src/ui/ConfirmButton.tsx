@@ -1,6 +1,7 @@
 // A button that asks before it does something that cannot be undone.
 
 import { Show, createSignal, onMount, type JSX } from 'solid-js';
+import { SmallButton } from './SmallButton';
 import './ConfirmButton.css';
 
 interface ConfirmProps {
@@ -38,8 +39,7 @@ function Question(
         {warning()}
         {props.verb}?
       </span>
-      <button
-        type="button"
+      <SmallButton
         class="small danger"
         aria-label={`Yes, ${props.verb.toLowerCase()} ${props.of}`}
         aria-disabled={props.isBusy}
@@ -48,18 +48,10 @@ function Question(
         }}
       >
         Yes
-      </button>
-      <button
-        ref={keep}
-        type="button"
-        class="small"
-        aria-label={`Keep ${props.of}`}
-        onClick={() => {
-          props.onKeep();
-        }}
-      >
+      </SmallButton>
+      <SmallButton ref={keep} aria-label={`Keep ${props.of}`} onClick={props.onKeep}>
         Keep
-      </button>
+      </SmallButton>
     </span>
   );
 }
@@ -82,10 +74,8 @@ export function ConfirmButton(props: ConfirmProps): JSX.Element {
     <Show
       when={isAsking()}
       fallback={
-        <button
+        <SmallButton
           ref={button}
-          type="button"
-          class="small"
           aria-label={`${props.verb} ${props.of}`}
           disabled={props.disabled}
           title={props.title}
@@ -94,7 +84,7 @@ export function ConfirmButton(props: ConfirmProps): JSX.Element {
           }}
         >
           {props.verb}
-        </button>
+        </SmallButton>
       }
     >
       <Question {...props} isBusy={isBusy()} onAnswer={() => void act()} onKeep={keep} />

@@ -38,9 +38,7 @@ export function TitleForm(props: {
         autocomplete="off"
         enterkeyhint="done"
       />
-      <button type="submit" class="small">
-        Save
-      </button>
+      <SmallButton type="submit">Save</SmallButton>
       <SmallButton onClick={props.onCancel}>Cancel</SmallButton>
     </form>
   );

@@ -6,7 +6,8 @@ import { Panel } from '../../ui/Panel';
 import type { Theme } from '../../ui/theme';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
-import { episodesDone, episodesInAll, isActive, numberOf, stageWords, subject } from './progress';
+import { episodesDone, episodesInAll, numberOf, stageWords, subject } from './progress';
+import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import type { Session, Trial } from '../../lab/slices';
 import './EvaluateView.css';
@@ -32,10 +33,7 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
             : stageWords(props.summary)}
         </span>
       </span>
-      <span class="entry-about">
-        {subject(props.summary)}; {props.summary.query.episodes} per cell, seed{' '}
-        {props.summary.query.seed}
-      </span>
+      <span class="entry-about">{subject(props.summary)}</span>
     </button>
   );
 }

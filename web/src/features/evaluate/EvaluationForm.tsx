@@ -39,7 +39,7 @@ export function EvaluationForm(props: {
     const size = sizeWords(query);
     if (size === undefined) return '';
     const time_s = estimate_s(query, props.measured);
-    const estimate = time_s === undefined ? 'duration not known yet' : `about ${roughly(time_s)}`;
+    const estimate = Number.isNaN(time_s) ? 'duration not known yet' : `about ${roughly(time_s)}`;
     return `${size}; ${estimate}.`;
   };
   return (

@@ -6,6 +6,7 @@ import { createAttempt } from '../../ui/attempt';
 import { roughly } from '../../ui/format';
 import { SmallButton } from '../../ui/SmallButton';
 import type { Theme } from '../../ui/theme';
+import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
 import { cancelEvaluation, createReport } from './evaluations';
@@ -14,7 +15,6 @@ import { FailureList } from './FailureList';
 import {
   episodesDone,
   episodesInAll,
-  isActive,
   milestone,
   numberOf,
   remaining_s,
@@ -37,7 +37,7 @@ function Progress(props: {
     if (!isActive(props.summary)) return counts;
     if (props.summary.stage === 'waiting') return `${counts}, waiting for another evaluation`;
     const left_s = remaining_s(props.summary, props.measured);
-    return left_s === undefined ? counts : `${counts}, about ${roughly(left_s)} left`;
+    return Number.isNaN(left_s) ? counts : `${counts}, about ${roughly(left_s)} left`;
   };
   return (
     <div class="evaluation-progress">
@@ -72,10 +72,7 @@ export function EvaluationPanel(props: {
       <header class="panel-head">
         <h2>
           Evaluation {numberOf(props.summary.id)}
-          <span class="about">
-            {subject(props.summary)}; {props.summary.query.episodes} per cell, seed{' '}
-            {props.summary.query.seed}
-          </span>
+          <span class="about">{subject(props.summary)}</span>
         </h2>
         <span
           class="evaluation-stage"

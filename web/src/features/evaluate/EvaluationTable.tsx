@@ -2,11 +2,11 @@
 
 import { For, Index, Show, type JSX } from 'solid-js';
 import { controllerLabel } from '../../lab/parameters';
+import { isActive } from '../../lab/trainingStage';
 import type { EvaluationCell, EvaluationSummary, PaperRow, Row } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
 import { Cells, type Column, Heads } from '../../ui/Table';
 import { IntervalBar } from './IntervalBar';
-import { isActive } from './progress';
 import { cm, decisionWords, percentRange, ratio } from './table';
 import { variedWords } from './varied';
 import './tables.css';

@@ -24,32 +24,35 @@ export interface Picture {
   readonly lines: readonly Line[];
 }
 
+/** The items of each key, in the order of their first ones. */
+function grouped<T>(items: readonly T[], key: (item: T) => string): (readonly [T, ...T[]])[] {
+  const groups = new Map<string, [T, ...T[]]>();
+  for (const item of items) {
+    const group = groups.get(key(item));
+    if (group) group.push(item);
+    else groups.set(key(item), [item]);
+  }
+  return [...groups.values()];
+}
+
 /** One picture for each map and number of disturbances. Its lines are those of all cells, its points those so far. */
 export function picturesOf(
   cells: readonly EvaluationCell[],
   rows: readonly Row[],
 ): readonly Picture[] {
-  type Growing = Line & { points: Point[] };
-  const pictures = new Map<
-    string,
-    { map: string; disturbances: number; lines: Map<string, Growing> }
-  >();
-  cells.forEach((cell, index) => {
-    if (cell.varied.length === 0) return;
-    const { map, disturbances } = cell;
-    const key = `${map} ${disturbances}`;
-    const lines = pictures.get(key)?.lines ?? new Map<string, Growing>();
-    const label = controllerLabel(cell);
-    const line = lines.get(label) ?? { label, controller: cell.controller, points: [] };
-    lines.set(label, line);
-    const row = rows[index];
-    if (row)
-      line.points.push({ row, at: cell.varied.map(({ name, value }) => shown(name, value)) });
-    pictures.set(key, { map, disturbances, lines });
-  });
-  return [...pictures.values()].map(({ lines, ...picture }) => ({
-    ...picture,
-    lines: [...lines.values()],
+  const all = cells
+    .map((cell, index) => ({ cell, row: rows[index] }))
+    .filter(({ cell }) => cell.varied.length > 0);
+  return grouped(all, ({ cell }) => `${cell.map} ${cell.disturbances}`).map((ofPicture) => ({
+    map: ofPicture[0].cell.map,
+    disturbances: ofPicture[0].cell.disturbances,
+    lines: grouped(ofPicture, ({ cell }) => controllerLabel(cell)).map((ofLine) => ({
+      label: controllerLabel(ofLine[0].cell),
+      controller: ofLine[0].cell.controller,
+      points: ofLine.flatMap(({ cell, row }) =>
+        row ? [{ row, at: cell.varied.map(({ name, value }) => shown(name, value)) }] : [],
+      ),
+    })),
   }));
 }
 

@@ -36,16 +36,13 @@ export function RecordingsView(props: RecordingsProps): JSX.Element {
   };
   const discardAt = async (id: string): Promise<boolean> => {
     const row = rowOf(id);
-    const hasFocus = row?.contains(document.activeElement) ?? false;
-    const next = row?.nextElementSibling ?? row?.previousElementSibling;
-    const passFocus = (): void => {
-      if (!hasFocus) return;
-      const button = next?.isConnected ? next.querySelector('button') : undefined;
-      (button ?? refresher).focus();
-    };
-    const isDone = await attempt(discard(id, passFocus));
-    if (isDone && open()?.id === id) setOpen(undefined);
-    return isDone;
+    const other = row?.nextElementSibling ?? row?.previousElementSibling;
+    if (!(await attempt(discard(id)))) return false;
+    if (open()?.id === id) setOpen(undefined);
+    // The button with the focus was removed.
+    if (document.activeElement === document.body)
+      (other?.isConnected ? other.querySelector('button') : refresher)?.focus();
+    return true;
   };
   const newest = (id: string): RecordingFile | undefined => list()?.find((file) => file.id === id);
   return (

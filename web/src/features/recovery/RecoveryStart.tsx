@@ -4,6 +4,7 @@ import { Show, type JSX } from 'solid-js';
 import { createTakingPart } from '../../lab/offered';
 import { operatorOnly } from '../../lab/operatorOnly';
 import type { Session, Trial } from '../../lab/slices';
+import { isActive } from '../../lab/trainingStage';
 import { RECOVERY_FIELDS } from '../../net/forms.gen';
 import type { RecoveryKind, RecoverySummary } from '../../net/protocol.gen';
 import { createAttempt } from '../../ui/attempt';
@@ -12,7 +13,7 @@ import { Form } from '../../ui/fields/Form';
 import { numberOf } from '../../ui/fields/number';
 import { clock } from '../../ui/format';
 import { SmallButton } from '../../ui/SmallButton';
-import { cancelRecovery, isActive, startRecovery } from './recoveries';
+import { cancelRecovery, startRecovery } from './recoveries';
 import { change, draft, edits } from './store';
 
 const KINDS: readonly (readonly [RecoveryKind, string])[] = [

@@ -9,9 +9,6 @@ import { setReport, setWanted, showRecovery, wanted } from './store';
 
 export const PATH = '/api/recoveries';
 
-export const isActive = ({ stage }: Pick<RecoverySummary, 'stage'>): boolean =>
-  stage === 'waiting' || stage === 'running';
-
 /** Starts a recovery map and shows it. */
 export async function startRecovery(query: RecoveryQuery): Promise<void> {
   showRecovery((await post<RecoverySummary>(PATH, JSON.stringify(query))).id);

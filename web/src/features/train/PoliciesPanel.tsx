@@ -10,11 +10,20 @@ import { FileButton } from '../../ui/FileButton';
 import { ForKeyed } from '../../ui/ForKeyed';
 import type { Palette } from '../../ui/palette';
 import { Panel } from '../../ui/Panel';
+import { Heads } from '../../ui/Table';
 import { PolicyRow } from './PolicyRow';
 import { policyOf } from './policyUse';
 import { uploadPolicy } from './trainings';
 import './policies.css';
 
+const COLUMNS = [
+  { name: 'Policy' },
+  { name: 'Maps' },
+  { name: 'Updates' },
+  { name: 'Examination', title: 'Episodes that reached their goals' },
+  { name: 'Seed' },
+  { name: 'Use, download, rename and delete', hideName: true },
+] as const;
 const ENDING = '.safetensors';
 
 export function PoliciesPanel(props: {
@@ -54,20 +63,7 @@ export function PoliciesPanel(props: {
         <table>
           <thead>
             <tr>
-              <th scope="col">Policy</th>
-              <th scope="col">Maps</th>
-              <th scope="col" class="number">
-                Updates
-              </th>
-              <th scope="col" class="number" title="Episodes that reached their goals">
-                Examination
-              </th>
-              <th scope="col" class="number">
-                Seed
-              </th>
-              <th scope="col">
-                <span class="visually-hidden">Use, download, rename and delete</span>
-              </th>
+              <Heads columns={COLUMNS} />
             </tr>
           </thead>
           <tbody>

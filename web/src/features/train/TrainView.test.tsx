@@ -2,7 +2,7 @@ import { Show, createSignal } from 'solid-js';
 import { expect, it } from 'vitest';
 import { page, userEvent } from 'vitest/browser';
 import { trainingOf } from '../../lab/testing';
-import { fakeLab, refusal, show } from '../../lab/testingLab';
+import { type Answers, fakeLab, refusal, show } from '../../lab/testingLab';
 import { CELLS, frameOf, pointOf } from './testing';
 import { TrainView } from './TrainView';
 
@@ -86,16 +86,16 @@ it('shows two trainings beside each other, and what can be done with each', asyn
     policy: 'two@0123456789abcdef',
     query: { ...one.query, name: 'two' },
   });
+  const answersOf = (id: string): Answers => ({
+    [`GET /api/trainings/${id}/cells`]: () => CELLS,
+    [`GET /api/trainings/${id}/frames/0`]: () => frameOf(100),
+    [`GET /api/trainings/${id}/frames/1`]: () => frameOf(200),
+    [`GET /api/trainings/${id}`]: () => ({ ...two, id, curve: [pointOf(100)] }),
+  });
   const { lab, server } = fakeLab({
     'GET /api/maps/posts': () => refusal('no map'),
-    ...Object.fromEntries(
-      [one, two].flatMap(({ id }) => [
-        [`GET /api/trainings/${id}/cells`, () => CELLS],
-        [`GET /api/trainings/${id}/frames/0`, () => frameOf(100)],
-        [`GET /api/trainings/${id}/frames/1`, () => frameOf(200)],
-        [`GET /api/trainings/${id}`, () => ({ ...two, id, curve: [pointOf(100)] })],
-      ]),
-    ),
+    ...answersOf(one.id),
+    ...answersOf(two.id),
     'POST /api/trainings/training-1/pause': () => refusal('too late'),
   });
   server.lists({ trainings: [one, two], policies: [] });
