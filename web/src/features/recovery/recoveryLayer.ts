@@ -105,9 +105,8 @@ export const RECOVERY_LAYER: MapLayer = {
     const squares = createMemo((): readonly Square[] => {
       const report = store.report();
       if (report?.kind !== 'place' || report.map !== lab.scene()?.map) return [];
-      const arrangement = store.arrangement();
       const front = Math.max(0, report.names.indexOf(store.chosen()?.name ?? ''));
-      const pair = arrangement === 'each' ? [front] : arrangement;
+      const pair = store.pair() ?? [front];
       const looks = looksOf(report, pair);
       const at = store.dropped();
       const dropped = at && cellAt(report, at);

@@ -21,8 +21,8 @@ export const { draft, change, edits } = createDraft<Draft>({
   seed: String(RECOVERY_DEFAULTS.seed),
 });
 
-/** Each controller beside the others, or the first minus the second of two, by their index. */
-export type Arrangement = 'each' | readonly [first: number, second: number];
+/** Two controllers, by their index. */
+export type Pair = readonly [first: number, second: number];
 
 /** A cell, and the controller whose trials are listed. */
 export interface Chosen {
@@ -35,7 +35,8 @@ export const [wanted, setWanted] = createSignal<string>();
 
 export const [report, setReport] = createSignal<RecoveryReport>();
 
-export const [arrangement, setArrangement] = createSignal<Arrangement>('each');
+/** The first one minus the second one; undefined: each controller beside the others. */
+export const [pair, setPair] = createSignal<Pair>();
 
 export const [chosen, setChosen] = createSignal<Chosen>();
 
@@ -45,5 +46,5 @@ export const [dropped, setDropped] = createSignal<Vec2>();
 export function showRecovery(id: string): void {
   setWanted(id);
   setChosen(undefined);
-  setArrangement('each');
+  setPair(undefined);
 }

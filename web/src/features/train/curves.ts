@@ -91,18 +91,12 @@ export function withLast(
   return [...points, { update, steps, episodes, ...nothing, ended: 0, reached: 0, examined }];
 }
 
-export interface Examined {
-  readonly examined: Examination;
-  /** Updates before it. */
-  readonly update: number;
-}
-
-/** The last examination once a training is done, before that the newest small one. */
+/** The last examination once a training is done, before that the newest small one, and the updates before it. */
 export function newestExamination(
-  { stage, updates, examined }: TrainingSummary,
+  { stage, updates: update, examined }: TrainingSummary,
   points: readonly TrainingPoint[],
-): Examined | undefined {
-  if (stage === 'done' && examined) return { examined, update: updates };
+) {
+  if (stage === 'done' && examined) return { examined, update };
   const point = points.findLast((one) => one.examined !== null);
   return point?.examined ? { examined: point.examined, update: point.update } : undefined;
 }
