@@ -11,7 +11,7 @@ import { keepFocus } from './app/focus';
 import { Page } from './app/Page';
 import { carriesToken, takeToken } from './net/loginToken';
 import { isBoard, isDemo } from './net/session';
-import { lazyPart, lazyView } from './ui/lazyPart';
+import { lazyView } from './ui/lazyPart';
 
 // A login link in a browser that is already logged in: remove the token from the address.
 takeToken(window);
@@ -27,16 +27,8 @@ if (!root) throw new Error('index.html has no #app');
 keepFocus(document);
 /** Loaded when they are opened: most browsers never do. */
 const DemoPage = lazyView<object>(async () => (await import('./app/DemoPage')).DemoPage);
-const BoardPage = lazyPart<object>(
+const BoardPage = lazyView<object>(
   async () => (await import('./features/board/BoardPage')).BoardPage,
-  () => <main class="view" />,
-  () => (
-    <main class="view">
-      <p class="placeholder" role="alert">
-        The board could not be loaded. Reload the page.
-      </p>
-    </main>
-  ),
 );
 /** What older browsers lack that the page needs; without it they would show a part of the page. */
 const isOld = !('toSorted' in Array.prototype) || !CSS.supports('selector(:has(*))');

@@ -25,7 +25,7 @@ import { LazyRecordingsView } from '../features/recordings/LazyRecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
 import { createMapOpener } from '../features/maps/opener';
 import { LazyTrainView } from '../features/train/LazyTrainView';
-import type { TrainProps } from '../features/train/TrainView';
+import { showMap } from '../features/train/state';
 import { PlaybackBar } from '../features/playback/PlaybackBar';
 import { KeptRuns } from '../features/runs/KeptRuns';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
@@ -55,7 +55,6 @@ export function Page(): JSX.Element {
     if (address.lesson() !== undefined) lab.openTab('lessons');
   });
   const drawing: DrawProps['kept'] = {};
-  const training: TrainProps['kept'] = {};
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
@@ -83,7 +82,7 @@ export function Page(): JSX.Element {
                   lab={lab}
                   opener={opener}
                   onTrain={() => {
-                    training.train?.showMap();
+                    showMap();
                     address.show('train');
                   }}
                 />
@@ -122,7 +121,6 @@ export function Page(): JSX.Element {
         </Match>
         <Match when={view() === 'train'}>
           <LazyTrainView
-            kept={training}
             lab={lab}
             theme={theme}
             onLaboratory={() => {

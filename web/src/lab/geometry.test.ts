@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { clampToRect, insidePolygon } from './geometry';
+import { clampToRect, insidePolygon, nextToward } from './geometry';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
@@ -42,4 +42,18 @@ describe('insidePolygon', () => {
     expect(insidePolygon({ exterior: bay, holes: [] }, [2, 2])).toBe(false);
     expect(insidePolygon({ exterior: bay, holes: [] }, [0.3, 2])).toBe(true);
   });
+});
+
+it('finds the next place in a direction', () => {
+  const places = [
+    [0.01, 0],
+    [0.02, 0],
+    [0.03, 0],
+    [0.03, 0.01],
+  ] as const;
+  expect(nextToward(places, places[0], [1, 0])).toBe(1);
+  expect(nextToward(places, places[2], [0, 1])).toBe(3);
+  expect(nextToward(places, places[0], [-1, 0])).toBeUndefined();
+  // Across a gap, and a little beside.
+  expect(nextToward([[0.2, 0.01]], places[0], [1, 0])).toBe(0);
 });

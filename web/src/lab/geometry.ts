@@ -67,3 +67,35 @@ export function insidePolygon({ exterior, holes }: Filled, point: Vec2): boolean
   const counts = [exterior, ...holes].map((ring) => crossings(ring, point));
   return counts.reduce((sum, count) => sum + count) % 2 === 1;
 }
+
+/** Index of the place with the least cost; undefined if each costs infinitely much. */
+export function leastOf(
+  places: readonly Vec2[],
+  cost: (place: Vec2) => number,
+): number | undefined {
+  let least = Infinity;
+  let found: number | undefined;
+  places.forEach((place, index) => {
+    const now = cost(place);
+    if (now >= least) return;
+    least = now;
+    found = index;
+  });
+  return found;
+}
+
+/** How much the distance beside a direction counts more than that along it. */
+const ASIDE = 3;
+
+/** Index of the next place in a direction; undefined at the edge. */
+export function nextToward(
+  places: readonly Vec2[],
+  from: Vec2,
+  [dx, dy]: Vec2,
+): number | undefined {
+  return leastOf(places, ([x, y]) => {
+    const along = (x - from[0]) * dx + (y - from[1]) * dy;
+    const aside = Math.abs((x - from[0]) * dy - (y - from[1]) * dx);
+    return along > 1e-6 && aside <= along ? along + ASIDE * aside : Infinity;
+  });
+}

@@ -26,13 +26,5 @@ export const lazyTab = (
 ): TabPanel => ({
   id,
   title,
-  panel: lazyPart<PanelProps>(
-    load,
-    () => <p class="placeholder">Loading…</p>,
-    () => (
-      <p class="placeholder" role="alert">
-        This tab could not be loaded. Reload the page.
-      </p>
-    ),
-  ),
+  panel: lazyPart(load, 'tab', (missing) => missing ?? <p class="placeholder">Loading…</p>),
 });

@@ -20,6 +20,11 @@ export function controllerLabel(one: {
   return one.program === null ? CONTROLLER_LABELS[one.controller] : shownName(one.program);
 }
 
+const LABELS: Readonly<Partial<Record<string, string>>> = CONTROLLER_LABELS;
+
+/** The name of a controller, or of a program, in a list of both. */
+export const labelOf = (name: string): string => LABELS[name] ?? shownName(name);
+
 /** What each controller does, one or two sentences. */
 export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
   rl: "RL: a trained neural network. From the camera's pictures it judges four directions, step by step.",

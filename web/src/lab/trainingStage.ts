@@ -1,9 +1,18 @@
 // What a training does and when it ends, as words. Pure.
 
 import { counted, fixed, roughly } from '../ui/format';
-import type { Examination, TrainingStage, TrainingSummary } from '../net/protocol.gen';
+import type {
+  EvaluationSummary,
+  Examination,
+  RecoverySummary,
+  TrainingStage,
+  TrainingSummary,
+} from '../net/protocol.gen';
 
-export function isActive({ stage }: Pick<TrainingSummary, 'stage'>): boolean {
+/** Whether a job has not ended. */
+export function isActive({
+  stage,
+}: Pick<TrainingSummary | EvaluationSummary | RecoverySummary, 'stage'>): boolean {
   return stage !== 'done' && stage !== 'cancelled' && stage !== 'failed';
 }
 

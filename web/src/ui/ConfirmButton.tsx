@@ -1,6 +1,7 @@
 // A button that asks before it does something that cannot be undone.
 
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
+import { SmallButton } from './SmallButton';
 import './ConfirmButton.css';
 
 interface ConfirmProps {
@@ -41,10 +42,8 @@ export function ConfirmButton(props: ConfirmProps): JSX.Element {
     <Show
       when={isAsking()}
       fallback={
-        <button
+        <SmallButton
           ref={button}
-          type="button"
-          class="small"
           aria-label={`${props.verb} ${props.of}`}
           disabled={props.disabled}
           title={props.title}
@@ -53,7 +52,7 @@ export function ConfirmButton(props: ConfirmProps): JSX.Element {
           }}
         >
           {props.verb}
-        </button>
+        </SmallButton>
       }
     >
       <span
@@ -68,24 +67,17 @@ export function ConfirmButton(props: ConfirmProps): JSX.Element {
           {warning()}
           {props.verb}?
         </span>
-        <button
-          type="button"
+        <SmallButton
           class="small danger"
           aria-label={`Yes, ${props.verb.toLowerCase()} ${props.of}`}
           aria-disabled={isBusy()}
           onClick={() => void act()}
         >
           Yes
-        </button>
-        <button
-          ref={keepButton}
-          type="button"
-          class="small"
-          aria-label={`Keep ${props.of}`}
-          onClick={keep}
-        >
+        </SmallButton>
+        <SmallButton ref={keepButton} aria-label={`Keep ${props.of}`} onClick={keep}>
           Keep
-        </button>
+        </SmallButton>
       </span>
     </Show>
   );

@@ -3,10 +3,28 @@
 import { For, Show, createEffect, on, onCleanup, onMount, untrack, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import type { Theme } from './theme';
 import { createCurve, type CurveContext, type CurveLine, showCursor } from './curve';
 import { onSize } from './size';
 import './plot.css';
+
+/** What the colours of lines mean. */
+export function Keys(props: {
+  lines: readonly Pick<CurveLine, 'label' | 'color' | 'isDashed'>[];
+  values?: readonly string[] | undefined;
+}): JSX.Element {
+  return (
+    <For each={props.lines}>
+      {(line, index) => (
+        <span class="key" data-color={line.color} data-dashed={line.isDashed ? '' : undefined}>
+          {line.label}{' '}
+          <Show when={props.values}>
+            {(values) => <span class="number">{values()[index()]}</span>}
+          </Show>
+        </span>
+      )}
+    </For>
+  );
+}
 
 export function CurvePlot(props: {
   /** Of a part in a figure. */
@@ -14,10 +32,9 @@ export function CurvePlot(props: {
   title: string;
   unit: string;
   name: string;
-  keys: readonly CurveLine[];
+  keys?: readonly CurveLine[];
   /** Beside the keys. */
   values?: readonly string[];
-  theme: () => Theme;
   context: CurveContext;
   data: uPlot.AlignedData;
   /** Place of the cursor while the pointer is elsewhere. */
@@ -41,7 +58,15 @@ export function CurvePlot(props: {
         untrack(() => props.at),
       );
     });
-    createEffect(on([props.theme, props.context.rules], () => plot.redraw(), { defer: true }));
+    createEffect(on(props.context.palette, () => plot.redraw(true), { defer: true }));
+    // The curve itself does not change.
+    createEffect(
+      on(
+        () => props.context.rules?.(),
+        () => plot.redraw(false),
+        { defer: true },
+      ),
+    );
     createEffect(
       on(
         () => props.at,
@@ -58,16 +83,7 @@ export function CurvePlot(props: {
         <Show when={props.letter}>{(letter) => <span class="letter">{letter()}</span>}</Show>
         <strong>{props.title}</strong>
         <span class="unit">{props.unit}</span>
-        <For each={props.keys}>
-          {(key, index) => (
-            <span class="key" data-color={key.color} data-dashed={key.isDashed ? '' : undefined}>
-              {key.label}{' '}
-              <Show when={props.values}>
-                {(values) => <span class="number">{values()[index()]}</span>}
-              </Show>
-            </span>
-          )}
-        </For>
+        <Keys lines={props.keys ?? []} values={props.values} />
       </figcaption>
       <div ref={root} class="plot-area" role="img" aria-label={props.name} />
     </figure>

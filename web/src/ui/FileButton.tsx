@@ -10,7 +10,7 @@ export function FileButton(props: {
   disabled: boolean;
   onFile: (file: File) => void;
   class?: string;
-  title?: string;
+  title?: string | undefined;
   /** If it differs from the visible text. */
   name?: string;
   children: JSX.Element;

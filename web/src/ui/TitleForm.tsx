@@ -1,6 +1,7 @@
 // A name that is edited in its place.
 
-import { onMount, type JSX } from 'solid-js';
+import { createSignal, onMount, type JSX } from 'solid-js';
+import { SmallButton } from './SmallButton';
 import './TitleForm.css';
 
 export function TitleForm(props: {
@@ -37,18 +38,33 @@ export function TitleForm(props: {
         autocomplete="off"
         enterkeyhint="done"
       />
-      <button type="submit" class="small">
-        Save
-      </button>
-      <button
-        type="button"
-        class="small"
-        onClick={() => {
-          props.onCancel();
-        }}
-      >
-        Cancel
-      </button>
+      <SmallButton type="submit">Save</SmallButton>
+      <SmallButton onClick={props.onCancel}>Cancel</SmallButton>
     </form>
   );
+}
+
+/** A title that a button opens for editing. `save` returns true if it was saved. */
+export function createRenaming(save: (title: string) => Promise<boolean>) {
+  let opener: HTMLButtonElement | undefined;
+  const [isOn, setOn] = createSignal(false);
+  const end = (): void => {
+    setOn(false);
+    opener?.focus();
+  };
+  const onSave = async (title: string): Promise<void> => {
+    if (await save(title)) end();
+  };
+  return {
+    isOn,
+    form: { onSave: (title: string) => void onSave(title), onCancel: end },
+    button: {
+      ref: (button: HTMLButtonElement) => {
+        opener = button;
+      },
+      onClick: () => {
+        setOn(true);
+      },
+    },
+  };
 }

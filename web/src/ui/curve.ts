@@ -46,9 +46,9 @@ export interface CurveContext {
   /** `step` is the distance to the next number. */
   readonly yText: (value: number, step: number) => string;
   readonly shades?: () => readonly Shade[];
-  readonly rules: () => readonly Rule[];
+  readonly rules?: () => readonly Rule[];
   /** Called with the point under the pointer, and with nothing when the pointer leaves. */
-  readonly onCursor: (index: number | undefined) => void;
+  readonly onCursor?: (index: number | undefined) => void;
 }
 
 const FONT = '10px system-ui, sans-serif';
@@ -112,7 +112,7 @@ function drawRule(u: uPlot, rule: Rule, ctx: CanvasRenderingContext2D, ratio: nu
 function drawRules(u: uPlot, context: CurveContext): void {
   inside(u, (ctx, ratio) => {
     ctx.font = `${11 * ratio}px system-ui, sans-serif`;
-    for (const rule of context.rules()) {
+    for (const rule of context.rules?.() ?? []) {
       ctx.lineWidth = (rule.isStrong ? 2 : 1) * ratio;
       ctx.strokeStyle = context.palette()[rule.color];
       ctx.fillStyle = context.palette()[rule.color];
@@ -225,7 +225,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
           (u) => {
             const { left = -1, idx } = u.cursor;
             // Not if it was put there.
-            if (left < 0 || u.over.matches(':hover')) context.onCursor(idx ?? undefined);
+            if (left < 0 || u.over.matches(':hover')) context.onCursor?.(idx ?? undefined);
           },
         ],
       },

@@ -12,6 +12,15 @@ export function download(name: string, content: Blob): void {
   }, 10_000);
 }
 
+export function pngOfCanvas(canvas: HTMLCanvasElement): Promise<Blob> {
+  return new Promise((resolve, reject) => {
+    canvas.toBlob((blob) => {
+      if (blob) resolve(blob);
+      else reject(new Error('The browser could not create the picture.'));
+    }, 'image/png');
+  });
+}
+
 /** Converts an SVG drawing to a PNG of `scale` times its size. */
 export async function pngOf(
   svg: string,
@@ -27,12 +36,7 @@ export async function pngOf(
     canvas.width = scale * width;
     canvas.height = scale * height;
     canvas.getContext('2d')?.drawImage(image, 0, 0, canvas.width, canvas.height);
-    return await new Promise((resolve, reject) => {
-      canvas.toBlob((blob) => {
-        if (blob) resolve(blob);
-        else reject(new Error('The browser could not create the image.'));
-      }, 'image/png');
-    });
+    return await pngOfCanvas(canvas);
   } finally {
     URL.revokeObjectURL(address);
   }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { axisLabel, centimetres, clock, fixed, newtons, roughly, speed } from './format';
+import { axisLabel, centimetres, clock, duration, fixed, newtons, roughly, speed } from './format';
 
 describe('readouts', () => {
   it('have a true minus sign, but not on zero', () => {
@@ -41,4 +41,14 @@ describe('roughly', () => {
   ])('%f s is %s', (time_s, text) => {
     expect(roughly(time_s)).toBe(text);
   });
+});
+
+it.each([
+  [0, '0:00'],
+  [0.008, '0:00'],
+  [59.6, '1:00'],
+  [62, '1:02'],
+  [4503, '75:03'],
+])('%d seconds are shown as %s', (seconds, text) => {
+  expect(duration(seconds)).toBe(text);
 });

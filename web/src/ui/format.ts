@@ -39,6 +39,12 @@ export function clock(time_s: number): string {
     : `${minutes}:${seconds.toFixed(1).padStart(4, '0')}`;
 }
 
+/** `1:02`: minutes and whole seconds. */
+export function duration(time_s: number): string {
+  const whole = Math.round(time_s);
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
+}
+
 /** Speed factors below 1 as fractions. */
 export function speed(factor: number): string {
   return factor < 1 ? `1/${Math.round(1 / factor)}×` : `${factor}×`;

@@ -2,31 +2,26 @@
 
 import { Suspense, lazy, type Component, type JSX } from 'solid-js';
 
-/** A newer version of the server may have other files: then `missing` is shown. */
+/** `frame` is shown until it is loaded, or around the words that it is missing: a newer version of the server may have other files. */
 export function lazyPart<P extends object>(
   load: () => Promise<Component<P>>,
-  waiting: () => JSX.Element,
-  missing: () => JSX.Element,
+  kind: string,
+  frame: (missing?: JSX.Element) => JSX.Element,
 ): Component<P> {
-  const Part = lazy(async () => ({ default: await load().catch(() => missing as Component<P>) }));
+  const Missing = (): JSX.Element =>
+    frame(
+      <p class="placeholder" role="alert">
+        This {kind} could not be loaded. Reload the page.
+      </p>,
+    );
+  const Part = lazy(async () => ({ default: await load().catch(() => Missing as Component<P>) }));
   return (props) => (
-    <Suspense fallback={waiting()}>
+    <Suspense fallback={frame()}>
       <Part {...props} />
     </Suspense>
   );
 }
 
 /** A view of the page. */
-export function lazyView<P extends object>(load: () => Promise<Component<P>>): Component<P> {
-  return lazyPart(
-    load,
-    () => <main class="view" />,
-    () => (
-      <main class="view">
-        <p class="placeholder" role="alert">
-          This view could not be loaded. Reload the page.
-        </p>
-      </main>
-    ),
-  );
-}
+export const lazyView = <P extends object>(load: () => Promise<Component<P>>): Component<P> =>
+  lazyPart(load, 'view', (missing) => <main class="view">{missing}</main>);

@@ -1,15 +1,17 @@
 // The comparison: one moment under several controllers with the same disturbances, and their results.
 
-import { For, Show, createMemo, type JSX } from 'solid-js';
+import { Show, createMemo, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
 import { errors_m, lastTick } from '../../lab/comparison';
 import { COMPARABLE } from '../../lab/offered';
 import { createPalette } from '../../ui/palette';
 import { controllerLabel } from '../../lab/parameters';
-import type { Branch, ComparisonMessage } from '../../net/protocol.gen';
-import type { CurveContext } from '../../ui/curve';
+import type { Branch, ComparisonMessage, ControllerName } from '../../net/protocol.gen';
+import type { CurveContext, CurveLine } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
+import { SmallButton } from '../../ui/SmallButton';
+import { type Column, Table } from '../../ui/Table';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { PanelProps } from '../../lab/panel';
 import type { Compared, Events, Notices, Session, Trial } from '../../lab/slices';
@@ -28,51 +30,53 @@ function outcome(comparison: ComparisonMessage, branch: Branch, tick_s: number):
 }
 
 function Results(props: { comparison: ComparisonMessage; tick_s: number }): JSX.Element {
+  const columns: readonly Column<Branch>[] = [
+    {
+      name: 'Controller',
+      isHead: true,
+      cell: (branch) => (
+        <span class="swatch" data-controller={branch.controller}>
+          {controllerLabel(branch)}
+          <Show when={branch.controller === props.comparison.controller}>
+            <span class="tag" title="The controller in use at that moment">
+              was in use
+            </span>
+          </Show>
+        </span>
+      ),
+    },
+    {
+      name: 'Outcome',
+      cell: (branch) => {
+        const words = outcome(props.comparison, branch, props.tick_s);
+        return <span title={words}>{words}</span>;
+      },
+    },
+    {
+      name: 'mean e',
+      title: 'Mean distance between tool and bead during transport',
+      cell: (branch) => centimetres(branch.tracking_error_mean_m),
+    },
+    {
+      name: 'max x',
+      title: 'Largest difference in x during transport',
+      cell: (branch) => centimetres(branch.tracking_error_max_x_m),
+    },
+    {
+      name: 'max y',
+      title: 'Largest difference in y during transport',
+      cell: (branch) => centimetres(branch.tracking_error_max_y_m),
+    },
+    { name: 'switches', cell: ({ switches }) => switches },
+    { name: 'steps', cell: ({ steps }) => steps },
+  ];
   return (
-    <table class="compare-table">
-      <caption class="visually-hidden">Results of each controller from this moment</caption>
-      <thead>
-        <tr>
-          <th scope="col">Controller</th>
-          <th scope="col">Outcome</th>
-          <th scope="col" title="Mean distance between tool and bead during transport">
-            mean e
-          </th>
-          <th scope="col" title="Largest difference in x during transport">
-            max x
-          </th>
-          <th scope="col" title="Largest difference in y during transport">
-            max y
-          </th>
-          <th scope="col">switches</th>
-          <th scope="col">steps</th>
-        </tr>
-      </thead>
-      <tbody>
-        <For each={props.comparison.branches}>
-          {(branch) => (
-            <tr>
-              <th scope="row" class="swatch" data-controller={branch.controller}>
-                {controllerLabel(branch)}
-                <Show when={branch.controller === props.comparison.controller}>
-                  <span class="tag" title="The controller in use at that moment">
-                    was in use
-                  </span>
-                </Show>
-              </th>
-              <td title={outcome(props.comparison, branch, props.tick_s)}>
-                {outcome(props.comparison, branch, props.tick_s)}
-              </td>
-              <td class="number">{centimetres(branch.tracking_error_mean_m)}</td>
-              <td class="number">{centimetres(branch.tracking_error_max_x_m)}</td>
-              <td class="number">{centimetres(branch.tracking_error_max_y_m)}</td>
-              <td class="number">{branch.switches}</td>
-              <td class="number">{branch.steps}</td>
-            </tr>
-          )}
-        </For>
-      </tbody>
-    </table>
+    <Table
+      class="compare-table number"
+      caption="Results of each controller from this moment"
+      columns={columns}
+      rows={props.comparison.branches}
+    />
   );
 }
 
@@ -85,16 +89,14 @@ function Player(props: {
   const since_s = (): number => (ghosts.tick() - props.comparison.tick) * props.tick_s;
   return (
     <div class="compare-player">
-      <button
-        type="button"
-        class="small"
+      <SmallButton
         onClick={() => {
           if (ghosts.playing()) ghosts.pause();
           else ghosts.play();
         }}
       >
         {ghosts.playing() ? 'Pause ghosts' : 'Play ghosts'}
-      </button>
+      </SmallButton>
       <input
         type="range"
         aria-label="Time of the ghosts"
@@ -108,36 +110,31 @@ function Player(props: {
         }}
       />
       <span class="number compare-time">+{fixed(since_s(), 1)} s</span>
-      <button
-        type="button"
-        class="small"
+      <SmallButton
         onClick={() => {
           ghosts.hide();
         }}
       >
         Clear ghosts
-      </button>
+      </SmallButton>
     </div>
   );
 }
 
 /** Seconds since the moment, then errors in centimetres, one column per controller. */
-function columns(comparison: ComparisonMessage, tick_s: number): uPlot.AlignedData {
+function columns(
+  { branches, ticks_a_sample }: ComparisonMessage,
+  tick_s: number,
+): uPlot.AlignedData {
   const errors = COMPARABLE.map((name) => {
-    const branch = comparison.branches.find(({ controller }) => controller === name);
-    return branch ? errors_m(branch) : [];
+    const branch = branches.find(({ controller }) => controller === name);
+    return branch ? errors_m(branch).map((error_m) => error_m * CM) : [];
   });
   const count = Math.max(0, ...errors.map((column) => column.length));
   const rows = Array.from({ length: count }, (_, row) => row);
-  const sample_s = comparison.ticks_a_sample * tick_s;
   return [
-    rows.map((row) => (row + 1) * sample_s),
-    ...errors.map((column) =>
-      rows.map((row) => {
-        const error_m = column[row];
-        return error_m === undefined ? null : error_m * CM;
-      }),
-    ),
+    rows.map((row) => (row + 1) * ticks_a_sample * tick_s),
+    ...errors.map((column) => rows.map((row) => column[row] ?? null)),
   ];
 }
 
@@ -155,23 +152,21 @@ function Errors(
     { axis: 'y', at: threshold_cm(), label: 'T', color: 'danger', dashed: true } as const,
     { axis: 'x', at: shown_s(), label: '', color: 'muted', dashed: false } as const,
   ]);
-  /** One for each column; the program's name comes with its branch. */
-  const lines = COMPARABLE.map((name) => ({
-    label: controllerLabel({ controller: name, program: null }),
-    color: name,
-  }));
-  const keys = (): typeof lines => {
-    const own = props.comparison.branches.find(({ controller }) => controller === 'program');
-    return lines
-      .filter(({ color }) => color !== 'program' || own !== undefined)
-      .map((one) =>
-        one.color === 'program' && own ? { ...one, label: controllerLabel(own) } : one,
-      );
-  };
+  const branchOf = (name: ControllerName): Branch | undefined =>
+    props.comparison.branches.find(({ controller }) => controller === name);
+  /** One for each column. */
+  const lines = COMPARABLE.map((name) => ({ label: '', color: name }));
+  /** The program's name comes with its branch. */
+  const keys = (): CurveLine[] =>
+    COMPARABLE.flatMap((name) => {
+      const branch = branchOf(name) ?? { controller: name, program: null };
+      return name === 'program' && branch.program === null
+        ? []
+        : [{ label: controllerLabel(branch), color: name }];
+    });
   const context: CurveContext = {
     palette,
     lines,
-    bands: [],
     xRange: () => [
       0,
       Math.max(1, (lastTick(props.comparison) - props.comparison.tick) * props.tick_s),
@@ -179,9 +174,7 @@ function Errors(
     yRange: (max) => [0, Math.max(1.2 * threshold_cm(), 1.1 * max)],
     xText: (value) => `${value} s`,
     yText: axisLabel,
-    shades: () => [],
     rules,
-    onCursor: () => undefined,
   };
   return (
     <CurvePlot
@@ -189,7 +182,6 @@ function Errors(
       unit="cm"
       name="Error norm of each controller over time since the moment"
       keys={keys()}
-      theme={props.theme}
       context={context}
       data={columns(props.comparison, props.tick_s)}
     />

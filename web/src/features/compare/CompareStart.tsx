@@ -3,7 +3,7 @@
 import { Show, createSignal, type JSX } from 'solid-js';
 import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
 import { isFailure } from '../../lab/failure';
-import { createOffered } from '../../lab/offered';
+import { createTakingPart } from '../../lab/offered';
 import type { Compared, Events, Session, Trial } from '../../lab/slices';
 import type { ControllerName } from '../../net/protocol.gen';
 import { CheckField } from '../../ui/fields/fields';
@@ -13,8 +13,7 @@ import { clock } from '../../ui/format';
 export function CompareStart(props: { lab: Session & Trial & Events & Compared }): JSX.Element {
   const { lab } = props;
   const [leftOut, setLeftOut] = createSignal<readonly ControllerName[]>([]);
-  const { offered, label } = createOffered(lab);
-  const wanted = (): ControllerName[] => offered().filter((name) => !leftOut().includes(name));
+  const { wanted, field } = createTakingPart(lab, leftOut, setLeftOut);
   /** At the end of an attempt there is nothing left to compare. */
   const isOver = (): boolean => {
     const phase = lab.state()?.phase;
@@ -55,19 +54,7 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
         </span>
       }
     >
-      <CheckField
-        name="controllers"
-        label="Controllers"
-        hideLabel
-        verb="Compare"
-        missing="Choose at least one controller."
-        all={offered()}
-        chosen={wanted()}
-        text={label}
-        onChoose={(names) => {
-          setLeftOut(offered().filter((name) => !names.includes(name)));
-        }}
-      />
+      <CheckField {...field} verb="Compare" />
     </Form>
   );
 }

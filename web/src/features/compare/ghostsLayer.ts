@@ -1,6 +1,10 @@
-import type { LayerContext, MapLayer } from '../../plan/layer';
-import { drawGhosts } from './drawGhosts';
+// The branches of a comparison as ghosts on the plan.
+
+import { ghostAt } from '../../lab/comparison';
+import { controllerLabel } from '../../lab/parameters';
 import type { Compared } from '../../lab/slices';
+import { drawGhost } from '../../plan/drawGhost';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 
 export const GHOSTS_LAYER: MapLayer = {
   id: 'ghosts',
@@ -15,7 +19,16 @@ export const GHOSTS_LAYER: MapLayer = {
       if (!comparison) return undefined;
       const tick = lab.comparison.tick();
       return (ctx, { view, palette }) => {
-        drawGhosts(ctx, view, palette, comparison, tick);
+        for (const branch of comparison.branches) {
+          const ghost = ghostAt(comparison, branch, tick);
+          if (!ghost) continue;
+          drawGhost(ctx, view, palette, {
+            ...ghost,
+            colour: palette[branch.controller],
+            label: controllerLabel(branch),
+            path_m: branch.samples.map(([, , x_m, y_m]) => [x_m, y_m] as const),
+          });
+        }
       };
     },
   }),

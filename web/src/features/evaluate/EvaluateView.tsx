@@ -1,10 +1,13 @@
 // The Evaluate view: the request on the left, the results on the right.
 
-import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { ForKeyed } from '../../ui/ForKeyed';
+import { Panel } from '../../ui/Panel';
 import type { Theme } from '../../ui/theme';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
-import { episodesDone, episodesInAll, isActive, numberOf, stageWords, subject } from './progress';
+import { episodesDone, episodesInAll, numberOf, stageWords, subject } from './progress';
+import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import type { Session, Trial } from '../../lab/slices';
 import './EvaluateView.css';
@@ -30,10 +33,7 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
             : stageWords(props.summary)}
         </span>
       </span>
-      <span class="entry-about">
-        {subject(props.summary)}; {props.summary.query.episodes} per cell, seed{' '}
-        {props.summary.query.seed}
-      </span>
+      <span class="entry-about">{subject(props.summary)}</span>
     </button>
   );
 }
@@ -45,43 +45,27 @@ export interface EvaluateProps {
 }
 
 export function EvaluateView(props: EvaluateProps): JSX.Element {
-  const { catalog } = props.lab;
-  const all = (): readonly EvaluationSummary[] => catalog.evaluations() ?? [];
-  const ids = createMemo(() => all().map(({ id }) => id), [], {
-    equals: (a, b) => a.join() === b.join(),
-  });
-  const byId = (id: string | undefined): EvaluationSummary | undefined =>
-    all().find((one) => one.id === id);
+  const all = (): readonly EvaluationSummary[] => props.lab.catalog.evaluations() ?? [];
   /** The chosen evaluation, otherwise the newest. */
-  const shown = createMemo(() => byId(chosen()) ?? all().at(-1));
+  const shown = createMemo(() => all().find(({ id }) => id === chosen()) ?? all().at(-1));
   return (
     <main class="view evaluate">
       <div class="evaluate-left">
-        <section class="panel" aria-label="New evaluation">
-          <header class="panel-head">
-            <h2>New evaluation</h2>
-          </header>
+        <Panel name="New evaluation">
           <EvaluationForm lab={props.lab} measured={all()} onStarted={setChosen} />
-        </section>
-        <section class="panel" aria-label="Evaluations">
-          <header class="panel-head">
-            <h2>Evaluations</h2>
-          </header>
+        </Panel>
+        <Panel name="Evaluations">
           <div class="evaluation-entries">
-            <For each={ids().toReversed()}>
-              {(id) => (
-                <Show when={byId(id)}>
-                  {(summary) => <Entry summary={summary()} current={shown()?.id === id} />}
-                </Show>
-              )}
-            </For>
-            <Show when={catalog.evaluations()?.length === 0}>
+            <ForKeyed each={all().toReversed()} by={({ id }) => id}>
+              {(summary) => <Entry summary={summary()} current={shown()?.id === summary().id} />}
+            </ForKeyed>
+            <Show when={props.lab.catalog.evaluations()?.length === 0}>
               <p class="placeholder">
                 No evaluations yet. The server keeps the last 16 until it is stopped.
               </p>
             </Show>
           </div>
-        </section>
+        </Panel>
       </div>
       <Show
         when={shown()}

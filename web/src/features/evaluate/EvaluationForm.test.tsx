@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { page, userEvent } from 'vitest/browser';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
 import type { EvaluationQuery } from '../../net/protocol.gen';
-import { setDraft } from './draft';
+import { change } from './draft';
 import { EvaluationForm } from './EvaluationForm';
 import { PAPERS } from './request';
 import { summaryOf } from './testing';
@@ -11,7 +11,7 @@ const run = page.getByRole('button', { name: 'Run' });
 const box = (name: string) => page.getByRole('checkbox', { name, exact: true });
 
 async function open(answer: (query: EvaluationQuery) => unknown) {
-  setDraft(PAPERS);
+  change(PAPERS);
   const { lab, server } = fakeLab({
     'POST /api/evaluations': (body) => answer(JSON.parse(body) as EvaluationQuery),
   });

@@ -3,8 +3,8 @@
 import { Show, createMemo, type JSX } from 'solid-js';
 import {
   CONTROLLERS,
-  CONTROLLER_LABELS,
   FIELDS,
+  labelOf,
   type PolicyField,
   policyOptions,
 } from '../../lab/parameters';
@@ -15,15 +15,13 @@ import type { EvaluationSummary } from '../../net/protocol.gen';
 import { CheckField, ChoiceField, NumberField, type Option } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
 import { roughly } from '../../ui/format';
-import { shownName } from '../../ui/name';
-import { draft, setDraft } from './draft';
+import { change, draft, edits } from './draft';
 import { startEvaluation } from './evaluations';
-import { chooseControllers, type Draft, estimate_s, queryOf, sizeWords } from './request';
+import { chooseControllers, estimate_s, queryOf, sizeWords } from './request';
 import { VaryFields } from './VaryFields';
 import './EvaluationForm.css';
 
 const DISTURBANCES = [0, 3] as const;
-const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
 
 export function EvaluationForm(props: {
   lab: Session & Trial;
@@ -32,9 +30,6 @@ export function EvaluationForm(props: {
 }): JSX.Element {
   const { lab } = props;
   const programs = createPrograms(lab.catalog, () => draft().program || undefined);
-  const change = (part: Partial<Draft>): void => {
-    setDraft({ ...draft(), ...part });
-  };
   const policies = createMemo((): readonly Option[] => {
     const field = FIELDS.find((one): one is PolicyField => one.kind === 'policy');
     return field ? policyOptions(field, lab.catalog.addedPolicies(), draft().rl_policy) : [];
@@ -44,7 +39,7 @@ export function EvaluationForm(props: {
     const size = sizeWords(query);
     if (size === undefined) return '';
     const time_s = estimate_s(query, props.measured);
-    const estimate = time_s === undefined ? 'duration not known yet' : `about ${roughly(time_s)}`;
+    const estimate = Number.isNaN(time_s) ? 'duration not known yet' : `about ${roughly(time_s)}`;
     return `${size}; ${estimate}.`;
   };
   return (
@@ -63,67 +58,36 @@ export function EvaluationForm(props: {
         label="Controllers"
         missing="Choose at least one controller."
         all={[...CONTROLLERS, ...programs()]}
-        chosen={[...draft().controllers, draft().program].filter((name) => name !== '')}
-        text={(name) => LABELS.get(name) ?? shownName(name)}
+        value={[...draft().controllers, draft().program].filter((name) => name !== '')}
+        text={labelOf}
         onChoose={(chosen) => {
           change(chooseControllers(chosen, draft().program));
         }}
       />
       <Show when={draft().controllers.includes('rl')}>
-        <ChoiceField
-          name="rl_policy"
-          label="Policy of RL"
-          value={draft().rl_policy}
-          options={policies()}
-          onChoose={(rl_policy) => {
-            change({ rl_policy });
-          }}
-        />
+        <ChoiceField {...edits('rl_policy')} label="Policy of RL" options={policies()} />
       </Show>
       <CheckField
-        name="maps"
+        {...edits('maps')}
         label="Maps"
         missing="Choose at least one map."
         all={lab.catalog.maps() ?? []}
-        chosen={draft().maps}
-        onChoose={(maps) => {
-          change({ maps });
-        }}
       />
       <CheckField<number>
-        name="disturbances"
+        {...edits('disturbances')}
         label="Disturbances per episode"
         missing="Choose at least one number of disturbances."
         all={DISTURBANCES}
-        chosen={draft().disturbances}
-        onChoose={(disturbances) => {
-          change({ disturbances });
-        }}
       />
-      <VaryFields
-        value={draft().vary}
-        onInput={(vary) => {
-          change({ vary });
-        }}
-      />
+      <VaryFields {...edits('vary')} />
       <div class="evaluation-columns">
+        <NumberField {...EVALUATION_FIELDS.episodes} {...edits('episodes')} />
         <NumberField
-          {...EVALUATION_FIELDS.episodes}
-          value={draft().episodes}
-          onInput={(episodes) => {
-            change({ episodes });
-          }}
-        />
-        <NumberField
-          name="seed"
+          {...edits('seed')}
           label="Seed"
           help="The same seed gives the same starts, goals and noise."
           min={0}
           isWhole
-          value={draft().seed}
-          onInput={(seed) => {
-            change({ seed });
-          }}
         />
       </div>
       <p class="hint" data-testid="evaluation-scope">

@@ -1,24 +1,27 @@
 // One evaluation: progress, rows, failures.
 
-import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
+import { For, Show, createMemo, on, type JSX } from 'solid-js';
+import { operatorOnly } from '../../lab/operatorOnly';
+import { createAttempt } from '../../ui/attempt';
 import { roughly } from '../../ui/format';
+import { SmallButton } from '../../ui/SmallButton';
 import type { Theme } from '../../ui/theme';
+import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
 import { cancelEvaluation, createReport } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
-import { LazyRobustnessPlots } from './LazyRobustnessPlots';
 import {
   episodesDone,
   episodesInAll,
-  isActive,
   milestone,
   numberOf,
   remaining_s,
   stageWords,
   subject,
 } from './progress';
+import { RobustnessPlots } from './RobustnessPlots';
 import { reportAddress, REPORTS } from './table';
 import type { Session, Trial } from '../../lab/slices';
 import './EvaluationPanel.css';
@@ -34,7 +37,7 @@ function Progress(props: {
     if (!isActive(props.summary)) return counts;
     if (props.summary.stage === 'waiting') return `${counts}, waiting for another evaluation`;
     const left_s = remaining_s(props.summary, props.measured);
-    return left_s === undefined ? counts : `${counts}, about ${roughly(left_s)} left`;
+    return Number.isNaN(left_s) ? counts : `${counts}, about ${roughly(left_s)} left`;
   };
   return (
     <div class="evaluation-progress">
@@ -60,32 +63,16 @@ export function EvaluationPanel(props: {
 }): JSX.Element {
   const { lab } = props;
   const report = createReport(() => props.summary);
-  const [refusal, setRefusal] = createSignal<string>();
-  createEffect(
-    on(
-      () => props.summary.id,
-      () => setRefusal(undefined),
-    ),
-  );
   const said = createMemo(() => milestone(props.summary));
   const measured = (): readonly EvaluationSummary[] => lab.catalog.evaluations() ?? [];
-  const cancel = async (): Promise<void> => {
-    setRefusal(undefined);
-    try {
-      await cancelEvaluation(props.summary.id);
-    } catch (reason) {
-      setRefusal(reason instanceof Error ? reason.message : String(reason));
-    }
-  };
+  /** One for each evaluation, so that a refusal is shown at its own. */
+  const cancelling = createMemo(on(() => props.summary.id, createAttempt));
   return (
     <section class="panel evaluation" aria-label={`Evaluation ${numberOf(props.summary.id)}`}>
       <header class="panel-head">
         <h2>
           Evaluation {numberOf(props.summary.id)}
-          <span class="about">
-            {subject(props.summary)}; {props.summary.query.episodes} per cell, seed{' '}
-            {props.summary.query.seed}
-          </span>
+          <span class="about">{subject(props.summary)}</span>
         </h2>
         <span
           class="evaluation-stage"
@@ -95,29 +82,25 @@ export function EvaluationPanel(props: {
           {stageWords(props.summary)}
         </span>
         <Show when={isActive(props.summary)}>
-          <button
-            type="button"
-            class="small"
-            disabled={!lab.canOperate()}
-            onClick={() => void cancel()}
+          <SmallButton
+            {...operatorOnly(lab)}
+            onClick={() => void cancelling().attempt(cancelEvaluation(props.summary.id))}
           >
             Cancel
-          </button>
+          </SmallButton>
         </Show>
       </header>
       <p class="visually-hidden" role="status" data-testid="evaluation-said">
         {said()}
       </p>
       <Progress summary={props.summary} measured={measured()} />
-      <div role="alert">
-        <Show when={refusal() ?? props.summary.message}>
-          {(text) => <p class="refusal">{text()}</p>}
-        </Show>
-      </div>
+      <p class="refusal" role="alert">
+        {cancelling().refusal() ?? props.summary.message}
+      </p>
       <Show when={report()}>
         {(now) => (
-          <Show when={props.summary.id} keyed>
-            <LazyRobustnessPlots summary={props.summary} rows={now().rows} theme={props.theme} />
+          <Show when={props.summary.query.vary.length > 0 && props.summary.id} keyed>
+            <RobustnessPlots summary={props.summary} rows={now().rows} theme={props.theme} />
           </Show>
         )}
       </Show>

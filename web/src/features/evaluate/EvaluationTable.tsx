@@ -1,9 +1,11 @@
 // The rows as they arrive. The paper's numbers are below the rows that have them.
 
-import { For, Show, type JSX } from 'solid-js';
-import { fixed } from '../../ui/format';
+import { For, Index, Show, type JSX } from 'solid-js';
 import { controllerLabel } from '../../lab/parameters';
+import { isActive } from '../../lab/trainingStage';
 import type { EvaluationCell, EvaluationSummary, PaperRow, Row } from '../../net/protocol.gen';
+import { fixed } from '../../ui/format';
+import { Cells, type Column, Heads } from '../../ui/Table';
 import { IntervalBar } from './IntervalBar';
 import { cm, decisionWords, percentRange, ratio } from './table';
 import { variedWords } from './varied';
@@ -15,67 +17,106 @@ function Share(props: {
   interval: readonly [number, number];
 }): JSX.Element {
   return (
-    <td class="count">
+    <div class="count">
       <span class="counts">
         {props.count}/{props.of}
       </span>
       <span class="range-words">{percentRange(props.interval)}</span>
       <IntervalBar share={props.count / props.of} interval={props.interval} />
-    </td>
+    </div>
   );
 }
 
-function Head(props: { name: string; unit?: string; title: string }): JSX.Element {
-  return (
-    <th scope="col" title={props.title}>
-      {props.name}
-      <Show when={props.unit}>
-        {(unit) => (
-          <>
-            <br />
-            <span class="unit">{unit()}</span>
-          </>
-        )}
-      </Show>
-    </th>
-  );
+const ABOUT: readonly Column<EvaluationCell>[] = [
+  { name: 'Controller', isHead: true, cell: controllerLabel },
+  { name: 'Map', cell: ({ map }) => map },
+];
+const VARIED: Column<EvaluationCell> = {
+  name: 'Varied',
+  cell: ({ varied }) => variedWords(varied),
+};
+const DISTURBANCES: Column<EvaluationCell> = {
+  name: 'Dist.',
+  title: 'Scripted disturbances per episode',
+  cell: ({ disturbances }) => disturbances,
+};
+
+/** What the paper has, too. */
+type Common = Pick<PaperRow, keyof Row & keyof PaperRow>;
+
+const MEASURED: readonly (Column<Row> & { readonly paper?: (row: Common) => JSX.Element })[] = [
+  {
+    name: 'Reached',
+    unit: '95 % Wilson',
+    title: 'The tool came within 2 cm of the goal, as in the paper',
+    cell: reached,
+    paper: reached,
+  },
+  {
+    name: 'Delivered',
+    unit: '95 % Wilson',
+    title: 'The bead came within 2 cm of the goal, released, within 5 s after the tool',
+    cell: (row) => <Share count={row.delivered} of={row.episodes} interval={row.wilson95} />,
+  },
+  {
+    name: 'Error, mean',
+    unit: 'cm',
+    title: 'Distance between tool and bead during transport, mean over the episodes',
+    ...centimetres('tracking_error_mean_m'),
+  },
+  {
+    name: 'max x',
+    unit: 'cm',
+    title: 'Largest difference in x during transport, mean over the episodes',
+    ...centimetres('tracking_error_max_x_m'),
+  },
+  {
+    name: 'max y',
+    unit: 'cm',
+    title: 'Largest difference in y during transport, mean over the episodes',
+    ...centimetres('tracking_error_max_y_m'),
+  },
+  {
+    name: 'Path ÷ shortest',
+    title:
+      "Length of the tool's path while it carries the bead, divided by the shortest possible path of the bead; mean over the episodes that delivered",
+    cell: (row) => ratio(row.path_ratio_mean),
+  },
+  {
+    name: 'Steps',
+    title: 'Control steps, mean over the episodes',
+    cell: (row) => fixed(row.steps_mean, 1),
+  },
+  {
+    name: 'Switches',
+    title: 'Switches of the active sub-controller, mean over the episodes',
+    cell: (row) => fixed(row.switches_mean, 2),
+  },
+  {
+    name: 'Decision',
+    unit: 'ms, p50 · p99',
+    title:
+      'Computing time of a control step with its camera image: median and 99th percentile, including all other work of this machine',
+    cell: decisionWords,
+  },
+];
+
+function reached({ successes, episodes, successes_wilson95 }: Common): JSX.Element {
+  return <Share count={successes} of={episodes} interval={successes_wilson95} />;
 }
 
-function Ours(props: { row: Row }): JSX.Element {
-  return (
-    <>
-      <Share
-        count={props.row.successes}
-        of={props.row.episodes}
-        interval={props.row.successes_wilson95}
-      />
-      <Share count={props.row.delivered} of={props.row.episodes} interval={props.row.wilson95} />
-      <td>{cm(props.row.tracking_error_mean_m)}</td>
-      <td>{cm(props.row.tracking_error_max_x_m)}</td>
-      <td>{cm(props.row.tracking_error_max_y_m)}</td>
-      <td>{ratio(props.row.path_ratio_mean)}</td>
-      <td>{fixed(props.row.steps_mean, 1)}</td>
-      <td>{fixed(props.row.switches_mean, 2)}</td>
-      <td>{decisionWords(props.row)}</td>
-    </>
-  );
+/** A number that the paper has, too. */
+function centimetres(name: `tracking_error_${'mean' | 'max_x' | 'max_y'}_m`) {
+  const cell = (row: Common): string => cm(row[name]);
+  return { cell, paper: cell };
 }
 
 /** A cell whose row has not arrived. */
-function Pending(props: { cell: EvaluationCell; summary: EvaluationSummary }): JSX.Element {
-  const words = (): string => {
-    const { done, delivered } = props.cell;
-    const { stage, query } = props.summary;
-    const ended = stage !== 'running' && stage !== 'waiting';
-    if (done === 0) return ended ? 'not started' : 'waiting';
-    const counted = `${done} of ${query.episodes} episodes, ${delivered} delivered`;
-    return ended ? `stopped after ${counted}` : `${counted} so far`;
-  };
-  return (
-    <td class="pending" colspan="9">
-      {words()}
-    </td>
-  );
+function pendingWords({ done, delivered }: EvaluationCell, summary: EvaluationSummary): string {
+  const hasEnded = !isActive(summary);
+  if (done === 0) return hasEnded ? 'not started' : 'waiting';
+  const counted = `${done} of ${summary.query.episodes} episodes, ${delivered} delivered`;
+  return hasEnded ? `stopped after ${counted}` : `${counted} so far`;
 }
 
 function Paper(props: { paper: PaperRow }): JSX.Element {
@@ -84,19 +125,9 @@ function Paper(props: { paper: PaperRow }): JSX.Element {
       <th scope="row" colspan="3">
         paper, {props.paper.section}: “{props.paper.printed}”
       </th>
-      <Share
-        count={props.paper.successes}
-        of={props.paper.episodes}
-        interval={props.paper.successes_wilson95}
-      />
-      <td class="none">–</td>
-      <td>{cm(props.paper.tracking_error_mean_m)}</td>
-      <td>{cm(props.paper.tracking_error_max_x_m)}</td>
-      <td>{cm(props.paper.tracking_error_max_y_m)}</td>
-      <td class="none">–</td>
-      <td class="none">–</td>
-      <td class="none">–</td>
-      <td class="none">–</td>
+      <For each={MEASURED}>
+        {({ paper }) => (paper ? <td>{paper(props.paper)}</td> : <td class="none">–</td>)}
+      </For>
     </tr>
   );
 }
@@ -105,89 +136,40 @@ export function EvaluationTable(props: {
   summary: EvaluationSummary;
   rows: readonly Row[];
 }): JSX.Element {
-  const isVaried = (): boolean => props.summary.query.vary.length > 0;
-  // Keyed by number, so that new data changes a row's content and does not replace the row.
-  const numbers = (): number[] => props.summary.cells.map((_, index) => index);
+  const about = (): readonly Column<EvaluationCell>[] =>
+    props.summary.query.vary.length > 0
+      ? [...ABOUT, VARIED, DISTURBANCES]
+      : [...ABOUT, DISTURBANCES];
   return (
     <div class="table-frame" tabindex="0" role="region" aria-label="Results">
       <table class="results number">
         <thead>
           <tr>
-            <th scope="col">Controller</th>
-            <th scope="col">Map</th>
-            <Show when={isVaried()}>
-              <th scope="col">Varied</th>
-            </Show>
-            <th scope="col" title="Scripted disturbances per episode">
-              Dist.
-            </th>
-            <Head
-              name="Reached"
-              unit="95 % Wilson"
-              title="The tool came within 2 cm of the goal, as in the paper"
-            />
-            <Head
-              name="Delivered"
-              unit="95 % Wilson"
-              title="The bead came within 2 cm of the goal, released, within 5 s after the tool"
-            />
-            <Head
-              name="Error, mean"
-              unit="cm"
-              title="Distance between tool and bead during transport, mean over the episodes"
-            />
-            <Head
-              name="max x"
-              unit="cm"
-              title="Largest difference in x during transport, mean over the episodes"
-            />
-            <Head
-              name="max y"
-              unit="cm"
-              title="Largest difference in y during transport, mean over the episodes"
-            />
-            <Head
-              name="Path ÷ shortest"
-              title="Length of the tool's path while it carries the bead, divided by the shortest possible path of the bead; mean over the episodes that delivered"
-            />
-            <Head name="Steps" title="Control steps, mean over the episodes" />
-            <Head
-              name="Switches"
-              title="Switches of the active sub-controller, mean over the episodes"
-            />
-            <Head
-              name="Decision"
-              unit="ms, p50 · p99"
-              title="Computing time of a control step with its camera image: median and 99th percentile, including all other work of this machine"
-            />
+            <Heads columns={[...about(), ...MEASURED]} />
           </tr>
         </thead>
         <tbody>
-          <For each={numbers()}>
-            {(index) => (
-              <Show when={props.summary.cells[index]}>
-                {(cell) => (
-                  <>
-                    <tr data-testid="evaluation-row">
-                      <th scope="row">{controllerLabel(cell())}</th>
-                      <td>{cell().map}</td>
-                      <Show when={isVaried()}>
-                        <td>{variedWords(cell().varied)}</td>
-                      </Show>
-                      <td>{cell().disturbances}</td>
-                      <Show
-                        when={props.rows[index]}
-                        fallback={<Pending cell={cell()} summary={props.summary} />}
-                      >
-                        {(row) => <Ours row={row()} />}
-                      </Show>
-                    </tr>
-                    <Show when={cell().paper}>{(paper) => <Paper paper={paper()} />}</Show>
-                  </>
-                )}
-              </Show>
+          {/* By index: new data changes a row's content and does not replace the row. */}
+          <Index each={props.summary.cells}>
+            {(cell, index) => (
+              <>
+                <tr data-testid="evaluation-row">
+                  <Cells columns={about()} row={cell()} />
+                  <Show
+                    when={props.rows[index]}
+                    fallback={
+                      <td class="pending" colspan={MEASURED.length}>
+                        {pendingWords(cell(), props.summary)}
+                      </td>
+                    }
+                  >
+                    {(row) => <Cells columns={MEASURED} row={row()} />}
+                  </Show>
+                </tr>
+                <Show when={cell().paper}>{(paper) => <Paper paper={paper()} />}</Show>
+              </>
             )}
-          </For>
+          </Index>
         </tbody>
       </table>
     </div>

@@ -1,21 +1,20 @@
 // Robustness: curves over one varied parameter, a grid of shares over two.
 
-import { For, Index, Show, createMemo, createSignal, type JSX } from 'solid-js';
-import { CurvePlot } from '../../ui/CurvePlot';
-import type { CurveContext, CurveLine } from '../../ui/curve';
+import { For, Index, Show, createMemo, type JSX } from 'solid-js';
+import { Keys } from '../../ui/CurvePlot';
+import type { CurveLine } from '../../ui/curve';
 import { counted, fixed } from '../../ui/format';
 import { createPalette } from '../../ui/palette';
+import { type Along, SeriesPlot } from '../../ui/SeriesPlot';
 import type { Theme } from '../../ui/theme';
 import type { EvaluationSummary, Row } from '../../net/protocol.gen';
 import {
-  columnsOf,
   gridOf,
   type Line,
-  type Measure,
   MEASURES,
   type Picture,
   picturesOf,
-  readWords,
+  pointsOf,
   valuesOf,
 } from './robustness';
 import { percentRange } from './table';
@@ -26,72 +25,27 @@ import './robustness.css';
 const STRONGEST = 60;
 
 /** A dashed line leaves the one below it visible where both are equal. */
-function keysOf({ lines }: Picture): CurveLine[] {
-  return lines.map(({ label, controller }, index) => ({
+const styled = ({ lines }: Picture): CurveLine[] =>
+  lines.map(({ label, controller }, index) => ({
     label,
     color: controller,
     isDashed: index % 2 === 1,
-    joinsGaps: true,
-    hasPoints: true,
   }));
-}
 
-function Curve(props: {
-  picture: Picture;
-  measure: Measure;
-  name: string;
-  theme: () => Theme;
-}): JSX.Element {
-  const palette = createPalette(() => props.theme());
-  const [pointed, setPointed] = createSignal<number>();
-  const data = createMemo(() => columnsOf(props.measure, props.picture));
-  // Their number does not change: they are those of the query.
-  const keys = keysOf(props.picture);
-  const edges = keys.map((_, line) => [3 * line, 3 * line + 1] as const);
-  const range = (): readonly [number, number] => {
-    const values = data()[0];
-    const [from, to] = [values[0] ?? 0, values.at(-1) ?? 1];
-    const air = 0.05 * (to - from) || 1;
-    return [from - air, to + air];
-  };
-  const context: CurveContext = {
-    palette,
-    lines: keys.flatMap((key) => {
-      const edge = { label: '', color: key.color, isEdge: true };
-      return [edge, edge, key];
-    }),
-    bands: [],
-    bars: edges,
-    xRange: () => [...range()],
-    yRange: (max) => [...(props.measure.range ?? [0, 1.1 * max || 1])],
+/** The axis of a varied parameter. */
+function alongParameter(name: string, picture: () => Picture): Along {
+  const { label, unit } = numberField(name);
+  return {
+    words: axisWords(name),
+    at: (value) => [label, value, unit].filter((part) => part !== '').join(' '),
+    xRange: () => {
+      const values = valuesOf(picture(), 0);
+      const [from, to] = [values[0] ?? 0, values.at(-1) ?? 1];
+      const air = 0.05 * (to - from) || 1;
+      return [from - air, to + air];
+    },
     xText: (value) => String(Number(value.toPrecision(6))),
-    yText: (value) => fixed(value, 0),
-    shades: () => [],
-    rules: () => [],
-    onCursor: setPointed,
   };
-  const words = (): string => {
-    const index = pointed() ?? data()[0].length - 1;
-    const value = data()[0][index];
-    if (value === undefined) return 'No row yet.';
-    const { label, unit } = numberField(props.name);
-    const read = readWords(props.measure, props.picture, data(), index);
-    return `${[label, value, unit].filter((part) => part !== '').join(' ')}: ${read}`;
-  };
-  return (
-    <div class="robustness-curve">
-      <CurvePlot
-        title={props.measure.title}
-        unit={props.measure.unit}
-        name={`${props.measure.title} over ${axisWords(props.name)}. ${words()}`}
-        theme={props.theme}
-        keys={[]}
-        context={context}
-        data={data()}
-      />
-      <p class="hint number">{words()}</p>
-    </div>
-  );
 }
 
 function GridCell(props: { row: Row | undefined }): JSX.Element {
@@ -151,13 +105,12 @@ function Grid(props: { picture: Picture; line: Line; names: readonly string[] })
   );
 }
 
-export interface RobustnessProps {
-  readonly summary: EvaluationSummary;
-  readonly rows: readonly Row[];
-  readonly theme: () => Theme;
-}
-
-export function RobustnessPlots(props: RobustnessProps): JSX.Element {
+export function RobustnessPlots(props: {
+  summary: EvaluationSummary;
+  rows: readonly Row[];
+  theme: () => Theme;
+}): JSX.Element {
+  const palette = createPalette(() => props.theme());
   const pictures = createMemo(() => picturesOf(props.summary.cells, props.rows));
   const names = createMemo(() => props.summary.query.vary.map(({ name }) => name));
   return (
@@ -182,22 +135,18 @@ export function RobustnessPlots(props: RobustnessProps): JSX.Element {
             }
           >
             <p class="robustness-keys">
-              <For each={keysOf(picture())}>
-                {({ label, color, isDashed }) => (
-                  <span class="key" data-color={color} data-dashed={isDashed ? '' : undefined}>
-                    {label}
-                  </span>
-                )}
-              </For>
+              <Keys lines={styled(picture())} />
             </p>
             <div class="robustness-curves">
               <For each={MEASURES}>
                 {(measure) => (
-                  <Curve
-                    picture={picture()}
+                  <SeriesPlot
+                    class="robustness-curve"
                     measure={measure}
-                    name={names()[0] ?? ''}
-                    theme={props.theme}
+                    lines={styled(picture())}
+                    points={pointsOf(measure, picture())}
+                    along={alongParameter(names()[0] ?? '', picture)}
+                    palette={palette}
                   />
                 )}
               </For>

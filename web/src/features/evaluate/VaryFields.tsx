@@ -5,14 +5,20 @@ import { GROUPS } from '../../lab/parameters';
 import { ChoiceField, NumberField } from '../../ui/fields/fields';
 import { Group } from '../../ui/fields/Row';
 import type { VariedDraft } from './request';
-import { isNumberName, numberField } from './varied';
+import { numberField, NUMBERS } from './varied';
 
 const MOST = 2;
 const COUNT = '5';
-const ENDS = [
+const INPUTS = [
   ['from', 'From'],
   ['to', 'To'],
+  ['count', 'Values'],
 ] as const;
+
+function ends(name: string): { readonly unit: string; readonly step: number } {
+  const { unit, step } = numberField(name);
+  return { unit, step };
+}
 
 function Row(props: {
   number: number;
@@ -21,17 +27,11 @@ function Row(props: {
   onChange: (value: VariedDraft | undefined) => void;
 }): JSX.Element {
   const choose = (name: string): void => {
-    if (!isNumberName(name)) {
-      props.onChange(undefined);
-      return;
-    }
-    const { min, max } = numberField(name);
-    props.onChange({ name, from: String(min), to: String(max), count: COUNT });
+    const field = NUMBERS.find((one) => one.name === name);
+    props.onChange(
+      field && { name: field.name, from: String(field.min), to: String(field.max), count: COUNT },
+    );
   };
-  const groups = GROUPS.map(({ title, fields }) => ({
-    title,
-    fields: fields.filter(({ kind }) => kind === 'number'),
-  }));
   return (
     <div class="vary-row">
       <ChoiceField<string>
@@ -39,10 +39,10 @@ function Row(props: {
         hideLabel
         value={props.value?.name ?? ''}
         options={[['', props.number === 1 ? 'No parameter' : 'No second parameter']]}
-        groups={groups.map(({ title, fields }) => ({
+        groups={GROUPS.map(({ title, fields }) => ({
           title,
           options: fields
-            .filter(({ name }) => name !== props.taken)
+            .filter(({ kind, name }) => kind === 'number' && name !== props.taken)
             .map(({ name, label }) => [name, label]),
         }))}
         onChoose={choose}
@@ -50,28 +50,18 @@ function Row(props: {
       <Show when={props.value}>
         {(value) => (
           <div class="vary-range">
-            <For each={ENDS}>
-              {([end, label]) => (
+            <For each={INPUTS}>
+              {([part, label]) => (
                 <NumberField
+                  {...(part === 'count' ? { min: 1, isWhole: true } : ends(value().name))}
                   label={label}
-                  unit={numberField(value().name).unit}
-                  step={numberField(value().name).step}
-                  value={value()[end]}
+                  value={value()[part]}
                   onInput={(text) => {
-                    props.onChange({ ...value(), [end]: text });
+                    props.onChange({ ...value(), [part]: text });
                   }}
                 />
               )}
             </For>
-            <NumberField
-              label="Values"
-              min={1}
-              isWhole
-              value={value().count}
-              onInput={(count) => {
-                props.onChange({ ...value(), count });
-              }}
-            />
           </div>
         )}
       </Show>
@@ -81,7 +71,7 @@ function Row(props: {
 
 export function VaryFields(props: {
   value: readonly VariedDraft[];
-  onInput: (value: VariedDraft[]) => void;
+  onInput: (value: readonly VariedDraft[]) => void;
 }): JSX.Element {
   const put = (index: number, value: VariedDraft | undefined): void => {
     const all = [...props.value.slice(0, index), value, ...props.value.slice(index + 1)];

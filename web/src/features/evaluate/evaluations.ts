@@ -14,13 +14,9 @@ export const startEvaluation = async (query: EvaluationQuery): Promise<string> =
 export const cancelEvaluation = (id: string): Promise<void> => remove(`${PATH}/${id}`);
 
 /** Rows and failures of an evaluation. Fetched again when their number grows. */
-export function createReport(
-  summary: Accessor<EvaluationSummary | undefined>,
-): Accessor<EvaluationReport | undefined> {
-  return createDetail<EvaluationSummary, EvaluationReport>(PATH, summary, version);
-}
-
-/** Changes when a report's rows or failures change. */
-function version({ id, stage, rows_done }: EvaluationSummary): string {
-  return [id, stage, rows_done].join(' ');
-}
+export const createReport = (
+  summary: Accessor<EvaluationSummary>,
+): Accessor<EvaluationReport | undefined> =>
+  createDetail<EvaluationSummary, EvaluationReport>(PATH, summary, ({ id, stage, rows_done }) =>
+    [id, stage, rows_done].join(' '),
+  );

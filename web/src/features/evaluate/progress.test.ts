@@ -2,7 +2,6 @@ import { describe, expect, it } from 'vitest';
 import {
   episodesDone,
   episodesInAll,
-  isActive,
   milestone,
   numberOf,
   remaining_s,
@@ -10,6 +9,7 @@ import {
   stageWords,
   subject,
 } from './progress';
+import { isActive } from '../../lab/trainingStage';
 import { cellOf, summaryOf } from './testing';
 
 const TWO = summaryOf({
@@ -27,7 +27,7 @@ describe('progress', () => {
 
   it('estimates the remaining time from the speed of each cell', () => {
     expect(remaining_s(TWO, [])).toBe(6 * 3);
-    expect(remaining_s(summaryOf(), [])).toBeUndefined();
+    expect(remaining_s(summaryOf(), [])).toBeNaN();
     expect(remaining_s(summaryOf(), [TWO])).toBe(10 * 2);
     expect(remaining_s({ ...TWO, cells: [cellOf({ done: 10 })] }, [])).toBe(0);
   });
@@ -44,13 +44,15 @@ describe('words', () => {
     expect(numberOf('evaluation-12')).toBe('12');
     const query = { ...TWO.query, controllers: ['rl', 'errt'] as ('rl' | 'errt')[] };
     expect(subject({ ...TWO, query: { ...query, disturbances: [0, 3] } })).toBe(
-      'RL, ERRT on posts; 0 and 3 disturbances',
+      'RL, ERRT on posts; 0 and 3 disturbances; 10 per cell, seed 1',
     );
     expect(subject({ ...TWO, query: { ...TWO.query, disturbances: [1] } })).toBe(
-      'RL on posts; 1 disturbance',
+      'RL on posts; 1 disturbance; 10 per cell, seed 1',
     );
     const mine = { ...TWO.query, rl_policy: 'mine@0123456789abcdef' };
-    expect(subject({ ...TWO, query: mine })).toBe('RL (mine) on posts; 0 disturbances');
+    expect(subject({ ...TWO, query: mine })).toBe(
+      'RL (mine) on posts; 0 disturbances; 10 per cell, seed 1',
+    );
   });
 
   it('change at milestones only', () => {

@@ -4,10 +4,6 @@ import { CONTROLLER_LABELS, controllerLabel, policyName } from '../../lab/parame
 import type { Cell, ControllerName, EvaluationSummary } from '../../net/protocol.gen';
 import { numberField } from './varied';
 
-export function isActive({ stage }: EvaluationSummary): boolean {
-  return stage === 'running' || stage === 'waiting';
-}
-
 export function episodesDone(summary: EvaluationSummary): number {
   return summary.cells.reduce((sum, cell) => sum + cell.done, 0);
 }
@@ -25,37 +21,30 @@ function likeness(a: Cell, b: Cell): number {
   );
 }
 
-/** Seconds per episode of a cell, from the newest of the most similar measured cells. */
-export function secondsAnEpisode(
-  cell: Cell,
-  measured: readonly EvaluationSummary[],
-): number | undefined {
-  let best: { likeness: number; episode_s: number } | undefined;
-  for (const summary of measured) {
-    for (const other of summary.cells) {
-      if (other.done === 0) continue;
-      const alike = likeness(cell, other);
-      if (best && alike < best.likeness) continue;
+/** Seconds per episode of a cell, from the newest of the most similar measured cells; NaN without one. */
+export function secondsAnEpisode(cell: Cell, measured: readonly EvaluationSummary[]): number {
+  let best = { likeness: -1, episode_s: NaN };
+  for (const other of measured.flatMap(({ cells }) => cells)) {
+    const alike = likeness(cell, other);
+    if (other.done > 0 && alike >= best.likeness)
       best = { likeness: alike, episode_s: other.elapsed_s / other.done };
-    }
   }
-  return best?.episode_s;
+  return best.episode_s;
 }
 
-/** Remaining seconds; undefined if no similar cell was measured and no episode is done. */
+/** Remaining seconds; NaN if no similar cell was measured and no episode is done. */
 export function remaining_s(
-  summary: EvaluationSummary,
+  { cells, query }: EvaluationSummary,
   measured: readonly EvaluationSummary[],
-): number | undefined {
-  let sum_s = 0;
-  for (const cell of summary.cells) {
-    const left = summary.query.episodes - cell.done;
-    if (left === 0) continue;
-    const episode_s = cell.done > 0 ? cell.elapsed_s / cell.done : secondsAnEpisode(cell, measured);
-    if (episode_s === undefined) return undefined;
-    sum_s += left * episode_s;
-  }
-  return sum_s;
+): number {
+  return cells
+    .filter(({ done }) => done < query.episodes)
+    .map((cell) => {
+      const { done, elapsed_s } = cell;
+      const episode_s = done > 0 ? elapsed_s / done : secondsAnEpisode(cell, measured);
+      return (query.episodes - done) * episode_s;
+    })
+    .reduce((sum_s, cell_s) => sum_s + cell_s, 0);
 }
 
 /** 3 for `evaluation-3`. */
@@ -71,22 +60,22 @@ const STAGE_WORDS = {
   failed: 'failed',
 } as const;
 
-export function stageWords(summary: EvaluationSummary): string {
-  return STAGE_WORDS[summary.stage];
-}
+export const stageWords = ({ stage }: EvaluationSummary): string => STAGE_WORDS[stage];
 
-/** `RL, ERRT on posts; 0 and 3 disturbances`. */
+/** `RL, ERRT on posts; 0 and 3 disturbances; 30 per cell, seed 1`. */
 export function subject({ query }: EvaluationSummary): string {
-  const { rl_policy, program } = query;
+  const { maps, rl_policy, program, episodes, seed } = query;
   const label = (name: ControllerName): string =>
     name === 'rl' && rl_policy !== 'auto'
       ? `${CONTROLLER_LABELS.rl} (${policyName(rl_policy)})`
       : controllerLabel({ controller: name, program: name === 'program' ? program : null });
-  const controllers = query.controllers.map(label).join(', ');
   const disturbances = query.disturbances.join(' and ');
-  const noun = disturbances === '1' ? 'disturbance' : 'disturbances';
-  const varied = query.vary.map(({ name }) => `; ${numberField(name).label} varied`).join('');
-  return `${controllers} on ${query.maps.join(', ')}; ${disturbances} ${noun}${varied}`;
+  return [
+    `${query.controllers.map(label).join(', ')} on ${maps.join(', ')}`,
+    `${disturbances} ${disturbances === '1' ? 'disturbance' : 'disturbances'}`,
+    ...query.vary.map(({ name }) => `${numberField(name).label} varied`),
+    `${episodes} per cell, seed ${seed}`,
+  ].join('; ');
 }
 
 /** Announcement for screen readers. It changes at each quarter, each row, and the end. */

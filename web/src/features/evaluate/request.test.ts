@@ -68,8 +68,8 @@ describe('the size', () => {
   });
 
   it('has no duration before a measurement', () => {
-    expect(estimate_s(PAPERS_QUERY, [])).toBeUndefined();
-    expect(estimate_s(PAPERS_QUERY, [summaryOf()])).toBeUndefined();
+    expect(estimate_s(PAPERS_QUERY, [])).toBeNaN();
+    expect(estimate_s(PAPERS_QUERY, [summaryOf()])).toBeNaN();
   });
 
   it('is estimated from the most similar cell', () => {

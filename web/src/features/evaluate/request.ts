@@ -1,6 +1,11 @@
 // The request for an evaluation, from the form's fields. Pure.
 
-import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
+import type {
+  Cell,
+  ControllerName,
+  EvaluationQuery,
+  EvaluationSummary,
+} from '../../net/protocol.gen';
 import { CONTROLLERS, type NumberName } from '../../lab/parameters';
 import { counted } from '../../ui/format';
 import { numberOf } from '../../ui/fields/number';
@@ -81,6 +86,20 @@ export function chooseControllers(
   };
 }
 
+/** What is counted together: each controller, map and number of disturbances. */
+const cellsOf = ({ controllers, maps, disturbances, program }: EvaluationQuery): Cell[] =>
+  maps.flatMap((map) =>
+    disturbances.flatMap((count) =>
+      controllers.map((controller) => ({
+        controller,
+        map,
+        disturbances: count,
+        program,
+        varied: [],
+      })),
+    ),
+  );
+
 /** Number of combinations of the varied values. */
 function combinations({ vary }: EvaluationQuery): number {
   return vary.reduce((product, { count }) => product * count, 1);
@@ -88,30 +107,15 @@ function combinations({ vary }: EvaluationQuery): number {
 
 /** `4 cells, 120 episodes`; undefined if there are none. */
 export function sizeWords(query: EvaluationQuery): string | undefined {
-  const cells =
-    query.controllers.length * query.maps.length * query.disturbances.length * combinations(query);
+  const cells = cellsOf(query).length * combinations(query);
   // Not a number either, as long as one is being typed.
   if (!(cells * query.episodes > 0)) return undefined;
   return `${counted(cells, 'cell')}, ${counted(cells * query.episodes, 'episode')}`;
 }
 
-/** Estimated duration; undefined if no similar cell was measured. */
-export function estimate_s(
-  query: EvaluationQuery,
-  measured: readonly EvaluationSummary[],
-): number | undefined {
-  let sum_s = 0;
-  for (const map of query.maps) {
-    for (const disturbances of query.disturbances) {
-      for (const controller of query.controllers) {
-        const episode_s = secondsAnEpisode(
-          { controller, map, disturbances, program: query.program, varied: [] },
-          measured,
-        );
-        if (episode_s === undefined) return undefined;
-        sum_s += episode_s * query.episodes * combinations(query);
-      }
-    }
-  }
-  return sum_s;
+/** Estimated duration; NaN if no similar cell was measured. */
+export function estimate_s(query: EvaluationQuery, measured: readonly EvaluationSummary[]): number {
+  return cellsOf(query)
+    .map((cell) => secondsAnEpisode(cell, measured) * query.episodes * combinations(query))
+    .reduce((sum_s, cell_s) => sum_s + cell_s, 0);
 }

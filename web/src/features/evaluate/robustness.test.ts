@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { EvaluationCell, Row } from '../../net/protocol.gen';
-import { columnsOf, gridOf, MEASURES, picturesOf, readWords } from './robustness';
+import { gridOf, MEASURES, picturesOf, pointsOf } from './robustness';
 import { cellOf, ROW } from './testing';
 import { shown, variedWords } from './varied';
 
@@ -23,18 +23,20 @@ describe('one parameter', () => {
       ['ERRT', 2],
       ['RL', 1],
     ]);
-    const columns = columnsOf(MEASURES[0], picture);
-    expect(columns[0]).toEqual([1, 2]);
-    expect(columns[3]).toEqual([10, 50]);
-    expect(columns[6]).toEqual([null, 80]);
-    expect(readWords(MEASURES[0], picture, columns, 0)).toBe('ERRT 10 (79 to 98)');
+    expect(pointsOf(MEASURES[0], picture)).toEqual([
+      [
+        [2, [expect.any(Number), expect.any(Number), 50]],
+        [1, [expect.any(Number), expect.any(Number), 10]],
+      ],
+      [[2, [expect.any(Number), expect.any(Number), 80]]],
+    ]);
   });
 
   it('leaves out errors without an interval', () => {
     const row = { ...delivered(5), tracking_error_mean95_m: null };
     const [picture] = picturesOf(cells, [row]);
     if (!picture || !MEASURES[1]) throw new Error('a picture');
-    expect(columnsOf(MEASURES[1], picture)[3]).toEqual([null]);
+    expect(pointsOf(MEASURES[1], picture)).toEqual([[[2, [null, null, null]]], []]);
   });
 });
 

@@ -1,8 +1,8 @@
 // Rows over varied parameters: curves over one, a grid over two. Pure.
 
-import { fixed } from '../../ui/format';
 import { controllerLabel } from '../../lab/parameters';
 import type { ControllerName, EvaluationCell, Row } from '../../net/protocol.gen';
+import type { Interval, Measure, Points } from '../../ui/series';
 import { shown } from './varied';
 
 export interface Point {
@@ -24,48 +24,44 @@ export interface Picture {
   readonly lines: readonly Line[];
 }
 
+/** The items of each key, in the order of their first ones. */
+function grouped<T>(items: readonly T[], key: (item: T) => string): (readonly [T, ...T[]])[] {
+  const groups = new Map<string, [T, ...T[]]>();
+  for (const item of items) {
+    const group = groups.get(key(item));
+    if (group) group.push(item);
+    else groups.set(key(item), [item]);
+  }
+  return [...groups.values()];
+}
+
 /** One picture for each map and number of disturbances. Its lines are those of all cells, its points those so far. */
 export function picturesOf(
   cells: readonly EvaluationCell[],
   rows: readonly Row[],
 ): readonly Picture[] {
-  type Growing = Line & { points: Point[] };
-  const pictures = new Map<
-    string,
-    { map: string; disturbances: number; lines: Map<string, Growing> }
-  >();
-  cells.forEach((cell, index) => {
-    if (cell.varied.length === 0) return;
-    const { map, disturbances } = cell;
-    const key = `${map} ${disturbances}`;
-    const lines = pictures.get(key)?.lines ?? new Map<string, Growing>();
-    const label = controllerLabel(cell);
-    const line = lines.get(label) ?? { label, controller: cell.controller, points: [] };
-    lines.set(label, line);
-    const row = rows[index];
-    if (row)
-      line.points.push({ row, at: cell.varied.map(({ name, value }) => shown(name, value)) });
-    pictures.set(key, { map, disturbances, lines });
-  });
-  return [...pictures.values()].map(({ lines, ...picture }) => ({
-    ...picture,
-    lines: [...lines.values()],
+  const all = cells
+    .map((cell, index) => ({ cell, row: rows[index] }))
+    .filter(({ cell }) => cell.varied.length > 0);
+  return grouped(all, ({ cell }) => `${cell.map} ${cell.disturbances}`).map((ofPicture) => ({
+    map: ofPicture[0].cell.map,
+    disturbances: ofPicture[0].cell.disturbances,
+    lines: grouped(ofPicture, ({ cell }) => controllerLabel(cell)).map((ofLine) => ({
+      label: controllerLabel(ofLine[0].cell),
+      controller: ofLine[0].cell.controller,
+      points: ofLine.flatMap(({ cell, row }) =>
+        row ? [{ row, at: cell.varied.map(({ name, value }) => shown(name, value)) }] : [],
+      ),
+    })),
   }));
 }
 
-/** What a curve shows: upper end, lower end and middle. */
-export interface Measure {
-  readonly id: 'delivered' | 'error';
-  readonly title: string;
-  readonly unit: string;
-  readonly values: (row: Row) => readonly [number, number, number] | undefined;
-  readonly digits: number;
-  readonly range?: readonly [number, number];
+export interface RowMeasure extends Measure {
+  readonly values: (row: Row) => Interval;
 }
 
-export const MEASURES: readonly Measure[] = [
+export const MEASURES: readonly RowMeasure[] = [
   {
-    id: 'delivered',
     title: 'Delivered',
     unit: '%, bars: Wilson, 95 %',
     values: ({ wilson95, delivered, episodes }) => [
@@ -74,21 +70,23 @@ export const MEASURES: readonly Measure[] = [
       (100 * delivered) / episodes,
     ],
     digits: 0,
-    range: [0, 100],
+    axisDigits: 0,
+    range: () => [0, 100],
+    intervals: 'bars',
   },
   {
-    id: 'error',
     title: 'Mean tracking error',
     unit: "mm, bars: Student's t, 95 %",
     values: ({ tracking_error_mean95_m: interval_m, tracking_error_mean_m }) =>
       interval_m
         ? [1e3 * interval_m[1], 1e3 * interval_m[0], 1e3 * tracking_error_mean_m]
-        : undefined,
+        : [null, null, null],
     digits: 1,
+    axisDigits: 0,
+    range: (max) => [0, 1.1 * max || 1],
+    intervals: 'bars',
   },
 ];
-
-type Column = (number | null)[];
 
 /** Values of one parameter that occur, in order. */
 export function valuesOf(picture: Picture, parameter: number): number[] {
@@ -96,34 +94,9 @@ export function valuesOf(picture: Picture, parameter: number): number[] {
   return [...new Set(values)].sort((a, b) => a - b);
 }
 
-/** The values of the parameter, and for each line its upper ends, lower ends and middles. */
-export function columnsOf(measure: Measure, picture: Picture): [number[], ...Column[]] {
-  const values = valuesOf(picture, 0);
-  const columns = picture.lines.flatMap(({ points }) => {
-    const byValue = new Map(points.map(({ at, row }) => [at[0], measure.values(row)]));
-    return ([0, 1, 2] as const).map((part) =>
-      values.map((value) => byValue.get(value)?.[part] ?? null),
-    );
-  });
-  return [values, ...columns];
-}
-
-/** Words for the values at one place of the curves. */
-export function readWords(
-  measure: Measure,
-  picture: Picture,
-  columns: readonly (readonly (number | null)[])[],
-  index: number,
-): string {
-  const words = picture.lines.flatMap(({ label }, line) => {
-    const [high, low, middle] = [1, 2, 3].map((part) => columns[3 * line + part]?.[index]);
-    if (typeof high !== 'number' || typeof low !== 'number' || typeof middle !== 'number')
-      return [];
-    const [from, to, at] = [low, high, middle].map((value) => fixed(value, measure.digits));
-    return [`${label} ${at} (${from} to ${to})`];
-  });
-  return words.join(', ');
-}
+/** The points of each line over the first parameter. */
+export const pointsOf = ({ values }: RowMeasure, { lines }: Picture): Points[] =>
+  lines.map(({ points }) => points.map(({ at, row }) => [at[0] ?? 0, values(row)]));
 
 /** Delivered shares of a line over two parameters: one row for each value of the first one, the largest on top. */
 export function gridOf(picture: Picture, line: Line): readonly (readonly (Row | undefined)[])[] {

@@ -1,6 +1,6 @@
 // Varied parameters in the words and units of the page. Pure.
 
-import { FIELDS, GROUPS, type NumberField, type NumberName } from '../../lab/parameters';
+import { FIELDS, GROUPS, type NumberField } from '../../lab/parameters';
 import type { Setting } from '../../net/protocol.gen';
 
 /** The parameters that can be varied. */
@@ -19,10 +19,6 @@ export function axisWords(name: string): string {
   const group = GROUPS.find(({ fields }) => fields.some((field) => field.name === name));
   const words = group ? `${group.title}: ${label}` : label;
   return unit === '' ? words : `${words}, ${unit}`;
-}
-
-export function isNumberName(name: string): name is NumberName {
-  return NUMBERS.some((one) => one.name === name);
 }
 
 /** A stored value in the shown unit, without the noise of binary fractions. */

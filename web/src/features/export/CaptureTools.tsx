@@ -1,6 +1,8 @@
 // Buttons that save a picture or a video of the view, and the clock of a video that is being recorded.
 
 import { Show, onCleanup, type JSX } from 'solid-js';
+import { duration } from '../../ui/format';
+import { SmallButton } from '../../ui/SmallButton';
 import type { Capture } from './capture';
 import { VIDEO_LIMIT_S } from './video';
 import './export.css';
@@ -13,19 +15,15 @@ export function CaptureTools(props: { capture: Capture }): JSX.Element {
   return (
     <div class="capture" role="group" aria-label="Picture and video">
       <div class="buttons">
-        <button
-          type="button"
-          class="small"
+        <SmallButton
           title="The plan or the 3-D view as it is now"
           disabled={!capture.isReady()}
           onClick={() => void capture.savePicture()}
         >
           Picture (PNG)
-        </button>
+        </SmallButton>
         <Show when={capture.canRecord}>
-          <button
-            type="button"
-            class="small"
+          <SmallButton
             disabled={!capture.isReady()}
             onClick={() => {
               if (isRecording()) capture.stopVideo();
@@ -33,7 +31,7 @@ export function CaptureTools(props: { capture: Capture }): JSX.Element {
             }}
           >
             {isRecording() ? 'Stop video' : 'Record video'}
-          </button>
+          </SmallButton>
         </Show>
       </div>
       <p class="capture-done" role="status">
@@ -48,9 +46,6 @@ export function CaptureTools(props: { capture: Capture }): JSX.Element {
   );
 }
 
-const clock = (time_s: number): string =>
-  `${Math.floor(time_s / 60)}:${String(time_s % 60).padStart(2, '0')}`;
-
 /** Over the view while a video is recorded. */
 export function RecordingClock(props: { capture: Capture }): JSX.Element {
   const { capture } = props;
@@ -60,19 +55,11 @@ export function RecordingClock(props: { capture: Capture }): JSX.Element {
     <Show when={capture.recorded_s() !== undefined}>
       <div class="recording-clock" role="group" aria-label="Video">
         <span class="number" role="timer">
-          {clock(capture.recorded_s() ?? 0)}
+          {duration(capture.recorded_s() ?? 0)}
         </span>
-        <button
-          type="button"
-          class="small"
-          aria-label="Stop video"
-          title="Saves the video"
-          onClick={() => {
-            capture.stopVideo();
-          }}
-        >
+        <SmallButton aria-label="Stop video" title="Saves the video" onClick={capture.stopVideo}>
           Stop
-        </button>
+        </SmallButton>
       </div>
     </Show>
   );

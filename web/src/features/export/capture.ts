@@ -1,42 +1,31 @@
 // Pictures and videos of the view. The page makes them; nothing is sent to the server.
 
 import { createSignal, untrack, type Accessor } from 'solid-js';
-import { download } from '../../ui/download';
+import { messageOf } from '../../ui/attempt';
+import { download, pngOfCanvas } from '../../ui/download';
 import type { Palette } from '../../ui/palette';
 import type { ViewPicture } from '../../plan/viewPicture';
 import type { Notices, Trial } from '../../lab/slices';
-import { caption, createSheet, fileName, fillSheet, pngOfSheet } from './picture';
+import { caption, createSheet, fileName, fillSheet } from './picture';
 import { ownVideoType, record, videoEnding, type Recording } from './video';
 
 /** Pixels of a picture per CSS pixel, at least. */
 const PICTURE_RATIO = 2;
 
-export interface Capture {
-  /** Whether there is a view to capture. */
-  readonly isReady: Accessor<boolean>;
-  readonly canRecord: boolean;
-  /** Whole seconds of the video that is being recorded; undefined if none is. */
-  readonly recorded_s: Accessor<number | undefined>;
-  /** Name of the file that was saved last, until `forget`. */
-  readonly saved: Accessor<string | undefined>;
-  forget(): void;
-  savePicture(): Promise<void>;
-  startVideo(): void;
-  stopVideo(): void;
-}
+export type Capture = ReturnType<typeof createCapture>;
 
 export function createCapture(
   lab: Trial & Notices,
   view: Accessor<ViewPicture | undefined>,
   palette: Accessor<Palette>,
-): Capture {
+) {
   const type = ownVideoType();
   const [recorded_s, setRecorded] = createSignal<number>();
   const [saved, setSaved] = createSignal<string>();
   let recording: Recording | undefined;
 
   const say = (reason: unknown): void => {
-    lab.notify('workspace', reason instanceof Error ? reason.message : String(reason));
+    lab.notify('workspace', messageOf(reason));
   };
   const save = (name: string, content: Blob): void => {
     download(name, content);
@@ -56,12 +45,15 @@ export function createCapture(
     });
 
   return {
+    /** Whether there is a view to capture. */
     isReady: () => view() !== undefined && lab.state() !== undefined,
     canRecord: type !== undefined,
+    /** Whole seconds of the video that is being recorded; undefined if none is. */
     recorded_s,
+    /** Name of the file that was saved last, until `forget`. */
     saved,
     forget: () => setSaved(undefined),
-    async savePicture() {
+    savePicture: async (): Promise<void> => {
       const now = untrack(view);
       if (!now) return;
       const ratio = Math.max(PICTURE_RATIO, window.devicePixelRatio);
@@ -69,12 +61,12 @@ export function createCapture(
       const name = nameOf('png');
       setSaved(undefined);
       try {
-        if (fill(sheet, ratio)) save(name, await pngOfSheet(sheet));
+        if (fill(sheet, ratio)) save(name, await pngOfCanvas(sheet));
       } catch (reason) {
         say(reason);
       }
     },
-    startVideo() {
+    startVideo: (): void => {
       const now = untrack(view);
       if (!now || recording || type === undefined) return;
       const ratio = window.devicePixelRatio;
@@ -103,7 +95,7 @@ export function createCapture(
         say(reason);
       }
     },
-    stopVideo() {
+    stopVideo: (): void => {
       recording?.stop();
     },
   };

@@ -74,12 +74,3 @@ export function fillSheet(
   ctx.fillText(words, inset, space + caption_px / 2, sheet.width - 2 * inset);
   return true;
 }
-
-export function pngOfSheet(sheet: HTMLCanvasElement): Promise<Blob> {
-  return new Promise((resolve, reject) => {
-    sheet.toBlob((blob) => {
-      if (blob) resolve(blob);
-      else reject(new Error('The browser could not create the picture.'));
-    }, 'image/png');
-  });
-}

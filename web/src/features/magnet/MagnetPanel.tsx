@@ -18,13 +18,7 @@ import {
   SIDES,
 } from './magnet';
 import { createPalette } from '../../ui/palette';
-import type {
-  Parameters,
-  PullCurve,
-  PullQuery,
-  ReachCurve,
-  ReachQuery,
-} from '../../net/protocol.gen';
+import type { Parameters, PullCurve, ReachCurve } from '../../net/protocol.gen';
 import type { Theme } from '../../ui/theme';
 import { CurvePlot } from '../../ui/CurvePlot';
 import type { CurveContext, Rule } from '../../ui/curve';
@@ -63,15 +57,15 @@ function Magnet(props: {
     return error_m === undefined ? undefined : Math.round(1000 * error_m) / 1000;
   });
   // No request without a connection, so that it is sent again on the next connection.
-  const ask = <Q, A>(path: string, question: (parameters: Parameters) => Q) =>
-    createAnswer<Q, A>(path, () =>
+  const ask = <A,>(path: string, question: (parameters: Parameters) => object) =>
+    createAnswer<object, A>(path, () =>
       lab.connection().kind === 'live' ? question(props.parameters) : undefined,
     );
-  const pull = ask<PullQuery, PullCurve>('/api/magnetics/pull', (parameters) =>
+  const pull = ask<PullCurve>('/api/magnetics/pull', (parameters) =>
     pullQuery(parameters, direction_rad()),
   );
   const reachAt = (heights: 'all' | 'here') =>
-    ask<ReachQuery, ReachCurve>('/api/magnetics/reach', (parameters) =>
+    ask<ReachCurve>('/api/magnetics/reach', (parameters) =>
       reachQuery(parameters, direction_rad(), heights),
     );
   const [reach, here] = [reachAt('all'), reachAt('here')];
@@ -161,7 +155,6 @@ function Magnet(props: {
         title="Pull"
         unit="of weight"
         name={`Lift, pull and friction over the offset toward ${side()}; the bead is ${fixed(100 * (distance_m() ?? 0), 1)} cm away`}
-        theme={props.theme}
         keys={pullContext.lines}
         context={pullContext}
         data={pullData()}
@@ -170,7 +163,6 @@ function Magnet(props: {
         title="Capture by height"
         unit="cm"
         name="Captured offsets over the height of the block's lower face"
-        theme={props.theme}
         keys={[{ label: 'lift-off', color: 'danger' }]}
         context={reachContext}
         data={reachData()}

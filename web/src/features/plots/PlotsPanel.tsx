@@ -128,7 +128,6 @@ function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.E
               sample={samples[index()]?.[0]()}
               palette={palette}
               threshold_m={lab.scene()?.parameters.threshold_m}
-              theme={props.theme}
             />
           )}
         </For>

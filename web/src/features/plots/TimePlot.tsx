@@ -5,7 +5,6 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import type { CurveContext } from '../../ui/curve';
 import { clock, fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
-import type { Theme } from '../../ui/theme';
 import type { Figure } from './figure';
 import { linesOf, type Part, partRange, rulesOf } from './parts';
 import { nearestIndex, type Sample } from './sample';
@@ -22,7 +21,6 @@ export function TimePlot(props: {
   palette: () => Palette;
   /** Threshold T. */
   threshold_m: number | undefined;
-  theme: () => Theme;
 }): JSX.Element {
   const { part, figure } = props;
   const times = (): Float64Array => props.sample?.columns.sim_time_s ?? new Float64Array();
@@ -66,7 +64,6 @@ export function TimePlot(props: {
       name={words()}
       keys={part.lines}
       values={values()}
-      theme={props.theme}
       context={context}
       data={[times(), ...lines()]}
       at={figure.pointed_s()}

@@ -1,10 +1,13 @@
 // The list of recordings, and the one that is open in Rerun's viewer.
 
-import { For, Show, createSignal, type Accessor, type JSX } from 'solid-js';
+import { Show, createSignal, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
 import { nameOf } from './names';
 import { createRecordings } from './recordings';
 import { Row } from './Row';
+import { createAttempt } from '../../ui/attempt';
+import { ForKeyed } from '../../ui/ForKeyed';
+import { SmallButton } from '../../ui/SmallButton';
 import type { Theme } from '../../ui/theme';
 import { ViewerFrame } from './ViewerFrame';
 import './recordings.css';
@@ -20,8 +23,7 @@ export interface RecordingsProps {
 export function RecordingsView(props: RecordingsProps): JSX.Element {
   const { list, error, refresh, rename, discard } = createRecordings(() => props.tick);
   const [open, setOpen] = createSignal<RecordingFile>();
-  /** Why the last change was refused. */
-  const [refusal, setRefusal] = createSignal<string>();
+  const { attempt, refusal } = createAttempt();
   let rows: HTMLTableSectionElement | undefined;
   let refresher!: HTMLButtonElement;
   const rowOf = (id: string): HTMLTableRowElement | undefined =>
@@ -32,29 +34,15 @@ export function RecordingsView(props: RecordingsProps): JSX.Element {
     // The Close button is removed with its focus: give the focus back.
     if (id !== undefined) rowOf(id)?.querySelector('button')?.focus();
   };
-  /** True if it was done. */
-  const attempt = async (change: Promise<void>): Promise<boolean> => {
-    setRefusal(undefined);
-    try {
-      await change;
-      return true;
-    } catch (reason) {
-      setRefusal(reason instanceof Error ? reason.message : String(reason));
-      return false;
-    }
-  };
   const discardAt = async (id: string): Promise<boolean> => {
     const row = rowOf(id);
-    const hasFocus = row?.contains(document.activeElement) ?? false;
-    const next = row?.nextElementSibling ?? row?.previousElementSibling;
-    const passFocus = (): void => {
-      if (!hasFocus) return;
-      const button = next?.isConnected ? next.querySelector('button') : undefined;
-      (button ?? refresher).focus();
-    };
-    const isDone = await attempt(discard(id, passFocus));
-    if (isDone && open()?.id === id) setOpen(undefined);
-    return isDone;
+    const other = row?.nextElementSibling ?? row?.previousElementSibling;
+    if (!(await attempt(discard(id)))) return false;
+    if (open()?.id === id) setOpen(undefined);
+    // The button with the focus was removed.
+    if (document.activeElement === document.body)
+      (other?.isConnected ? other.querySelector('button') : refresher)?.focus();
+    return true;
   };
   const newest = (id: string): RecordingFile | undefined => list()?.find((file) => file.id === id);
   return (
@@ -62,9 +50,9 @@ export function RecordingsView(props: RecordingsProps): JSX.Element {
       <section class="panel recordings-list" aria-labelledby="recordings-title">
         <div class="panel-head">
           <h2 id="recordings-title">Recordings</h2>
-          <button ref={refresher} type="button" class="small" onClick={refresh}>
+          <SmallButton ref={refresher} onClick={refresh}>
             Refresh
-          </button>
+          </SmallButton>
         </div>
         <Show when={refusal() ?? error()}>
           {(text) => (
@@ -98,23 +86,18 @@ export function RecordingsView(props: RecordingsProps): JSX.Element {
                 </tr>
               </thead>
               <tbody ref={rows}>
-                {/* By id: a row stays, with the focus in it, when its file has grown. */}
-                <For each={list()?.map((file) => file.id)}>
-                  {(id) => (
-                    <Show when={newest(id)}>
-                      {(file) => (
-                        <Row
-                          file={file()}
-                          isOwn={file().session === props.session}
-                          isOpen={open()?.id === id}
-                          onOpen={() => setOpen(file())}
-                          onRename={(title) => attempt(rename(id, title))}
-                          onDelete={() => discardAt(id)}
-                        />
-                      )}
-                    </Show>
+                <ForKeyed each={list()} by={({ id }) => id}>
+                  {(file) => (
+                    <Row
+                      file={file()}
+                      isOwn={file().session === props.session}
+                      isOpen={open()?.id === file().id}
+                      onOpen={() => setOpen(file())}
+                      onRename={(title) => attempt(rename(file().id, title))}
+                      onDelete={() => discardAt(file().id)}
+                    />
                   )}
-                </For>
+                </ForKeyed>
               </tbody>
             </table>
           </Show>

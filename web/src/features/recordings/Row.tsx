@@ -1,23 +1,14 @@
 // A recording in the list: its name, its files, its title and its deletion.
 
-import { Show, createSignal, type JSX } from 'solid-js';
+import { Show, type JSX } from 'solid-js';
 import { ConfirmButton } from '../../ui/ConfirmButton';
-import { TitleForm } from '../../ui/TitleForm';
+import { SmallButton } from '../../ui/SmallButton';
+import { createRenaming, TitleForm } from '../../ui/TitleForm';
 import type { RecordingFile } from '../../net/protocol.gen';
-import { duration, nameOf, ownName } from './names';
+import { duration } from '../../ui/format';
+import { nameOf, ownName } from './names';
 import { type Ending, filePath, label, size, startedAt } from './recordings';
 import { addressOf } from '../../net/base';
-
-interface RowProps {
-  readonly file: RecordingFile;
-  /** Whether it is of the page's session. */
-  readonly isOwn: boolean;
-  readonly isOpen: boolean;
-  readonly onOpen: () => void;
-  /** True if it was done. */
-  readonly onRename: (title: string) => Promise<boolean>;
-  readonly onDelete: () => Promise<boolean>;
-}
 
 function Download(props: { file: RecordingFile; ending: Ending; words: string }): JSX.Element {
   const what = (): string => (props.ending === 'ferry' ? 'the input log of ' : '');
@@ -57,26 +48,26 @@ function Facts(props: { file: RecordingFile; isOwn: boolean }): JSX.Element {
   );
 }
 
-export function Row(props: RowProps): JSX.Element {
-  let renamer!: HTMLButtonElement;
-  const [isRenaming, setRenaming] = createSignal(false);
-  const endRenaming = (): void => {
-    setRenaming(false);
-    renamer.focus();
-  };
-  const rename = async (title: string): Promise<void> => {
-    if (await props.onRename(title)) endRenaming();
-  };
+export function Row(props: {
+  file: RecordingFile;
+  /** Whether it is of the page's session. */
+  isOwn: boolean;
+  isOpen: boolean;
+  onOpen: () => void;
+  /** True if it was done. */
+  onRename: (title: string) => Promise<boolean>;
+  onDelete: () => Promise<boolean>;
+}): JSX.Element {
+  const renaming = createRenaming((title) => props.onRename(title));
   return (
     <tr data-recording={props.file.id} aria-current={props.isOpen ? 'true' : undefined}>
       <th scope="row">
-        <Show when={isRenaming()} fallback={<span class="name">{nameOf(props.file)}</span>}>
+        <Show when={renaming.isOn()} fallback={<span class="name">{nameOf(props.file)}</span>}>
           <TitleForm
+            {...renaming.form}
             label={`Title of ${label(props.file)}`}
             value={props.file.title ?? ''}
             placeholder={ownName(props.file)}
-            onSave={(title) => void rename(title)}
-            onCancel={endRenaming}
           />
         </Show>
         <Facts file={props.file} isOwn={props.isOwn} />
@@ -88,31 +79,16 @@ export function Row(props: RowProps): JSX.Element {
       </td>
       <td class="number size">{size(props.file.bytes)}</td>
       <td class="deeds">
-        <button
-          type="button"
-          class="small"
-          aria-label={`Open ${label(props.file)}`}
-          onClick={() => {
-            props.onOpen();
-          }}
-        >
+        <SmallButton aria-label={`Open ${label(props.file)}`} onClick={props.onOpen}>
           Open
-        </button>
+        </SmallButton>
         <Download file={props.file} ending="rrd" words="Download" />
         <Show when={props.file.log_bytes !== null}>
           <Download file={props.file} ending="ferry" words="Log" />
         </Show>
-        <button
-          ref={renamer}
-          type="button"
-          class="small"
-          aria-label={`Rename ${label(props.file)}`}
-          onClick={() => {
-            setRenaming(true);
-          }}
-        >
+        <SmallButton {...renaming.button} aria-label={`Rename ${label(props.file)}`}>
           Rename
-        </button>
+        </SmallButton>
         <Show when={!props.file.live}>
           <ConfirmButton verb="Delete" of={label(props.file)} onYes={props.onDelete} />
         </Show>

@@ -3,34 +3,28 @@
 import { Show, createEffect, on, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
 import { label } from './recordings';
+import { SmallButton } from '../../ui/SmallButton';
 import type { Theme } from '../../ui/theme';
 import { type ThemeMessage, viewerAddress } from './viewerMessages';
 
 const LEAVE_KEY = 'F6';
 
-interface ViewerFrameProps {
-  readonly file: RecordingFile;
-  readonly name: string;
-  readonly theme: Accessor<Theme>;
-  readonly onAgain: () => void;
-  readonly onClose: () => void;
-}
-
-export function ViewerFrame(props: ViewerFrameProps): JSX.Element {
+export function ViewerFrame(props: {
+  file: RecordingFile;
+  name: string;
+  theme: Accessor<Theme>;
+  onAgain: () => void;
+  onClose: () => void;
+}): JSX.Element {
   let frame!: HTMLIFrameElement;
   let closer!: HTMLButtonElement;
   // The address holds the first theme. Later themes are sent as messages, because a new address would reload the viewer.
   const address = viewerAddress(props.file.id, props.theme());
-  createEffect(
-    on(
-      () => props.theme(),
-      (theme) => {
-        const message: ThemeMessage = { type: 'theme', theme };
-        frame.contentWindow?.postMessage(message, location.origin);
-      },
-      { defer: true },
-    ),
-  );
+  const sendTheme = (theme: Theme): void => {
+    const message: ThemeMessage = { type: 'theme', theme };
+    frame.contentWindow?.postMessage(message, location.origin);
+  };
+  createEffect(on(props.theme, sendTheme, { defer: true }));
   // The viewer uses the Tab key itself, so keyboard users need another key to leave it.
   const listenForLeaving = (): void => {
     const leave = (event: KeyboardEvent): void => {
@@ -50,29 +44,14 @@ export function ViewerFrame(props: ViewerFrameProps): JSX.Element {
           <span class="viewer-note">
             still recording; this shows the data at the time of opening
           </span>
-          <button
-            type="button"
-            class="small"
-            onClick={() => {
-              props.onAgain();
-            }}
-          >
-            Reload
-          </button>
+          <SmallButton onClick={props.onAgain}>Reload</SmallButton>
         </Show>
         <span class="viewer-note">
           <kbd>{LEAVE_KEY}</kbd> leaves the viewer
         </span>
-        <button
-          ref={closer}
-          type="button"
-          class="small"
-          onClick={() => {
-            props.onClose();
-          }}
-        >
+        <SmallButton ref={closer} onClick={props.onClose}>
           Close
-        </button>
+        </SmallButton>
       </div>
       <iframe ref={frame} src={address} title="Rerun viewer" onLoad={listenForLeaving} />
     </section>

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { RecordingContent, RecordingFile } from '../../net/protocol.gen';
-import { duration, joined, nameOf, shown } from './names';
+import { joined, nameOf, shown } from './names';
 
 const CONTENT: RecordingContent = {
   maps: ['colon'],
@@ -55,14 +55,4 @@ test.each([
   [['a', 'b', 'c', 'd', 'e'], 'a, b and 3 more'],
 ])('%j are joined as “%s”', (names, text) => {
   expect(joined(names)).toBe(text);
-});
-
-test.each([
-  [0, '0:00'],
-  [0.008, '0:00'],
-  [59.6, '1:00'],
-  [62, '1:02'],
-  [4503, '75:03'],
-])('%d seconds are shown as %s', (seconds, text) => {
-  expect(duration(seconds)).toBe(text);
 });

@@ -6,14 +6,15 @@ import { shownName } from '../../ui/name';
 
 /** A list with more names ends in a number. */
 const MAX_NAMES = 3;
+const LIST = new Intl.ListFormat('en-GB');
 
 /** `a`, `a and b`, `a, b and c`, `a, b and 2 more`. */
-export function joined(names: readonly string[]): string {
-  if (names.length <= 1) return names[0] ?? '';
-  const shown = names.length > MAX_NAMES ? MAX_NAMES - 1 : names.length - 1;
-  const rest = names.length > MAX_NAMES ? `${names.length - shown} more` : names.at(-1);
-  return `${names.slice(0, shown).join(', ')} and ${rest ?? ''}`;
-}
+export const joined = (names: readonly string[]): string =>
+  LIST.format(
+    names.length > MAX_NAMES
+      ? [...names.slice(0, MAX_NAMES - 1), `${names.length - MAX_NAMES + 1} more`]
+      : names,
+  );
 
 function outcome({ delivered, not_delivered }: RecordingContent): string {
   const counts = [
@@ -41,10 +42,4 @@ export function ownName({ content, live, session, id }: RecordingFile): string {
 /** The name that the list shows. */
 export function nameOf(file: RecordingFile): string {
   return file.title === null ? ownName(file) : shownName(file.title);
-}
-
-/** `1:02`: minutes and seconds. */
-export function duration(seconds: number): string {
-  const whole = Math.round(seconds);
-  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
 }

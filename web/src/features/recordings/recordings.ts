@@ -3,6 +3,7 @@
 import { createEffect, createSignal, on, onCleanup, type Accessor } from 'solid-js';
 import { get, patch, remove } from '../../net/requests';
 import type { RecordingFile, RecordingList, RecordingTitle } from '../../net/protocol.gen';
+import { messageOf } from '../../ui/attempt';
 
 const REFRESH_MS = 3000;
 
@@ -19,13 +20,8 @@ export function size(bytes: number): string {
   return `${value.toFixed(value < 99.95 ? 1 : 0)} ${units[unit] ?? ''}`;
 }
 
-export interface Started {
-  readonly day: string;
-  readonly time: string;
-}
-
 /** Local time with seconds: two sessions may start within one minute. */
-export function startedAt(started: string, locale?: string, timeZone?: string): Started {
+export function startedAt(started: string, locale?: string, timeZone?: string) {
   const date = new Date(started);
   const zone = timeZone === undefined ? {} : { timeZone };
   return {
@@ -52,24 +48,11 @@ export function filePath(id: string, ending: Ending): string {
   return `${recordingPath(id)}.${ending}`;
 }
 
-export interface Recordings {
-  /** The newest list; undefined before the first answer. */
-  readonly list: Accessor<readonly RecordingFile[] | undefined>;
-  /** Why the last request failed. */
-  readonly error: Accessor<string | undefined>;
-  readonly refresh: () => void;
-  /** Gives a recording a title; an empty one removes it. Throws an error with the message to show. */
-  readonly rename: (id: string, title: string) => Promise<void>;
-  /**
-   * Deletes a recording. Throws an error with the message to show. `beforeRemoval` is called when the server has deleted
-   * it, before it leaves the list.
-   */
-  readonly discard: (id: string, beforeRemoval: () => void) => Promise<void>;
-}
-
 /** The list, read again when the page is shown, and while `moved` changes, which is what the session records. */
-export function createRecordings(moved: Accessor<unknown>): Recordings {
+export function createRecordings(moved: Accessor<unknown>) {
+  /** Undefined before the first answer. */
   const [list, setList] = createSignal<readonly RecordingFile[]>();
+  /** Why the last request failed. */
   const [error, setError] = createSignal<string>();
   let asking = false;
   let closed = false;
@@ -85,7 +68,7 @@ export function createRecordings(moved: Accessor<unknown>): Recordings {
       setList(recordings);
       setError(undefined);
     } catch (reason) {
-      if (!closed) setError(reason instanceof Error ? reason.message : String(reason));
+      if (!closed) setError(messageOf(reason));
     } finally {
       asking = false;
     }
@@ -95,14 +78,14 @@ export function createRecordings(moved: Accessor<unknown>): Recordings {
     changes += 1;
     if (!closed) setList((list) => list && to(list));
   };
+  /** Gives a recording a title; an empty one removes it. A refusal is thrown, here and below. */
   const rename = async (id: string, title: string): Promise<void> => {
     const body: RecordingTitle = { title };
     const renamed = await patch<RecordingFile>(recordingPath(id), JSON.stringify(body));
     change((list) => list.map((file) => (file.id === id ? renamed : file)));
   };
-  const discard = async (id: string, beforeRemoval: () => void): Promise<void> => {
+  const discard = async (id: string): Promise<void> => {
     await remove(recordingPath(id));
-    if (!closed) beforeRemoval();
     change((list) => list.filter((file) => file.id !== id));
   };
   const whileVisible = (): void => {
@@ -110,15 +93,7 @@ export function createRecordings(moved: Accessor<unknown>): Recordings {
   };
   // The server writes about a second later what was recorded: the list is read once more than it has changed.
   let left = 1;
-  createEffect(
-    on(
-      moved,
-      () => {
-        left = 2;
-      },
-      { defer: true },
-    ),
-  );
+  createEffect(on(moved, () => (left = 2), { defer: true }));
   refresh();
   const timer = setInterval(() => {
     if (left === 0) return;

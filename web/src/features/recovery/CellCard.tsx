@@ -5,13 +5,12 @@ import { CommandButton } from '../../lab/CommandButton';
 import type { Notices, Session } from '../../lab/slices';
 import { get, getText } from '../../net/requests';
 import type { RecoveryReport, RecoveryTrial, RecoveryTrials } from '../../net/protocol.gen';
+import { messageOf } from '../../ui/attempt';
 import { download } from '../../ui/download';
+import { SmallButton } from '../../ui/SmallButton';
 import { cellWords, rowsOf, spotWords, trialWords } from './cells';
 import { PATH } from './recoveries';
 import type { Chosen } from './store';
-
-const textOf = (reason: unknown): string =>
-  reason instanceof Error ? reason.message : String(reason);
 
 export function CellCard(props: {
   lab: Session & Notices;
@@ -24,7 +23,7 @@ export function CellCard(props: {
     rowsOf(props.report, props.chosen.name).find(({ cell }) => cell === props.chosen.cell);
   const controller = () => props.report.controllers[props.report.names.indexOf(props.chosen.name)];
   const say = (reason: unknown): void => {
-    props.lab.notify('recovery', textOf(reason));
+    props.lab.notify('recovery', messageOf(reason));
   };
   createEffect(
     on([() => `${props.report.id}/cells/${props.chosen.cell}`, () => row()?.repeats], ([path]) => {
@@ -73,16 +72,14 @@ export function CellCard(props: {
                   >
                     Set up
                   </CommandButton>
-                  <button
-                    type="button"
-                    class="small"
+                  <SmallButton
                     aria-label={`Save trial ${trial.repeat + 1} as a test case`}
                     onClick={() => {
                       save(trial);
                     }}
                   >
                     Save
-                  </button>
+                  </SmallButton>
                 </li>
               )}
             </For>

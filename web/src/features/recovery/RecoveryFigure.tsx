@@ -2,16 +2,11 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import type { Polygon, Rect, RecoveryReport } from '../../net/protocol.gen';
+import { ARROWS } from '../../plan/gesture';
 import type { Look } from './cells';
 import { mm } from './cells';
 import { drawingOf, nextShape } from './shapes';
 
-const STEPS: Readonly<Record<string, readonly [number, number]>> = {
-  ArrowRight: [1, 0],
-  ArrowLeft: [-1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
 const FAINTEST = 0.25;
 const DOT = 7;
 
@@ -62,11 +57,11 @@ export function RecoveryFigure(props: {
       tabindex="0"
       aria-label={`${props.label}: cells. Arrow keys choose one.`}
       onKeyDown={(event) => {
-        const step = STEPS[event.key];
-        if (!step || event.ctrlKey || event.altKey || event.metaKey) return;
+        const arrow = ARROWS[event.key];
+        if (!arrow || event.ctrlKey || event.altKey || event.metaKey) return;
         event.preventDefault();
         event.stopPropagation();
-        const next = nextShape(drawing().shapes, props.chosen, step);
+        const next = nextShape(drawing().shapes, props.chosen, [arrow[0], -arrow[1]]);
         if (next !== undefined) props.onChoose(next);
       }}
     >

@@ -1,25 +1,22 @@
 // The tab *Recovery*: from where the bead is still delivered after a disturbance.
 
 import { For, Show, createMemo, type JSX } from 'solid-js';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { labelOf } from '../../lab/parameters';
 import type { PanelProps } from '../../lab/panel';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { ByHand, Notices, Session, Trial } from '../../lab/slices';
+import { isActive } from '../../lab/trainingStage';
 import type { RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
 import { clock, counted } from '../../ui/format';
 import { ChoiceField } from '../../ui/fields/fields';
 import { CellCard } from './CellCard';
-import { basinWords, cellAt, cellWords, rowsOf } from './cells';
-import { looksOf } from './looks';
-import { createRecoveryList, isActive } from './recoveries';
+import { basinWords, cellAt, cellWords, looksOf, rowsOf } from './cells';
+import { createShown } from './recoveries';
 import { RecoveryFigure } from './RecoveryFigure';
 import { RecoveryStart } from './RecoveryStart';
-import { type Arrangement, store } from './store';
+import * as store from './store';
 import './recovery.css';
 import { addressOf } from '../../net/base';
-
-const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
-const labelOf = (name: string): string => LABELS.get(name) ?? name;
 
 function progressWords({ stage, done, planned, message }: RecoverySummary): string {
   const counts = `${done} of ${counted(planned, 'trial')}`;
@@ -29,31 +26,23 @@ function progressWords({ stage, done, planned, message }: RecoverySummary): stri
   return stage === 'done' ? counted(done, 'trial') : `cancelled after ${counts}`;
 }
 
-/** Every pair of controllers, as an index list. */
-function pairsOf(names: readonly string[]): (readonly [number, number])[] {
-  return names.flatMap((_, first) =>
-    names.slice(first + 1).map((_, after) => [first, first + 1 + after] as const),
-  );
-}
+const titleOf = ({ names }: RecoveryReport, indices: readonly number[]): string =>
+  indices.map((index) => labelOf(names[index] ?? '')).join(' minus ');
 
 function Arrange(props: { report: RecoveryReport }): JSX.Element {
-  const options = createMemo(() => {
-    const names = props.report.names.map(labelOf);
-    const pairs = pairsOf(names).map((pair): [Arrangement, string] => [
-      pair,
-      `${names[pair[0]] ?? ''} minus ${names[pair[1]] ?? ''}`,
-    ]);
-    return [['each', 'each controller'] as [Arrangement, string], ...pairs];
-  });
+  const pairs = (): store.Pair[] =>
+    props.report.names.flatMap((_, first, names) =>
+      names.slice(first + 1).map((_, after): store.Pair => [first, first + 1 + after]),
+    );
   return (
     <ChoiceField<string>
       label="Show"
-      value={String(store.arrangement())}
-      options={options().map(([one, words]) => [String(one), words] as const)}
-      onChoose={(value) => {
-        const found = options().find(([one]) => String(one) === value);
-        if (found) store.setArrangement(found[0]);
-      }}
+      value={String(store.pair() ?? '')}
+      options={[
+        ['', 'each controller'],
+        ...pairs().map((pair) => [String(pair), titleOf(props.report, pair)] as const),
+      ]}
+      onChoose={(value) => store.setPair(pairs().find((pair) => String(pair) === value))}
     />
   );
 }
@@ -91,17 +80,13 @@ function Figures(props: { lab: Session & Trial & Notices; report: RecoveryReport
     const at = store.dropped();
     return at && lab.scene()?.map === props.report.map ? cellAt(props.report, at) : undefined;
   };
-  const drawn = createMemo(() => {
-    const arrangement = store.arrangement();
-    if (arrangement === 'each') {
-      return props.report.names.map((name, index) => ({ name, pair: [index] as number[] }));
-    }
-    const [first, second] = arrangement;
-    return [{ name: props.report.names[first] ?? '', pair: [first, second] }];
+  /** Each controller, or the difference of two: one index or two. */
+  const drawn = createMemo((): (readonly number[])[] => {
+    const pair = store.pair();
+    return pair ? [pair] : props.report.names.map((_, index) => [index]);
   });
+  const nameOf = ([first = 0]: readonly number[]): string => props.report.names[first] ?? '';
   const basin = (name: string) => props.report.basins.find((one) => one.controller === name);
-  const title = (pair: readonly number[]): string =>
-    pair.map((index) => labelOf(props.report.names[index] ?? '')).join(' minus ');
   const fell = (name: string): string | undefined => {
     const cell = dropped();
     const row = rowsOf(props.report, name).find((one) => one.cell === cell);
@@ -110,41 +95,43 @@ function Figures(props: { lab: Session & Trial & Notices; report: RecoveryReport
   return (
     <div class="recovery-figures">
       <For each={drawn()}>
-        {({ name, pair }) => (
-          <figure data-controller={pair.length === 1 ? name : undefined}>
-            <figcaption>
-              <strong>{title(pair)}</strong>{' '}
-              <Show when={pair.length === 1 && basin(name)}>
-                {(one) => (
-                  <span class="number" title="Share delivered in time, with its 95 % interval">
-                    {basinWords(one())}
-                  </span>
+        {(indices) => {
+          const name = nameOf(indices);
+          const isOne = indices.length === 1;
+          const title = titleOf(props.report, indices);
+          return (
+            <figure data-controller={isOne ? name : undefined}>
+              <figcaption>
+                <strong>{title}</strong>{' '}
+                <Show when={isOne && basin(name)}>
+                  {(one) => (
+                    <span class="number" title="Share delivered in time, with its 95 % interval">
+                      {basinWords(one())}
+                    </span>
+                  )}
+                </Show>
+              </figcaption>
+              <Show when={lab.scene()}>
+                {(scene) => (
+                  <RecoveryFigure
+                    report={props.report}
+                    name={name}
+                    label={title}
+                    looks={looksOf(props.report, indices)}
+                    workspace={scene().workspace}
+                    walls={scene().map === props.report.map ? scene().walls : []}
+                    chosen={store.chosen()?.cell}
+                    dropped={dropped()}
+                    onChoose={(cell) => {
+                      store.setChosen({ cell, name });
+                    }}
+                  />
                 )}
               </Show>
-            </figcaption>
-            <Show when={lab.scene()}>
-              {(scene) => (
-                <RecoveryFigure
-                  report={props.report}
-                  name={name}
-                  label={title(pair)}
-                  looks={looksOf(props.report, pair)}
-                  workspace={scene().workspace}
-                  walls={scene().map === props.report.map ? scene().walls : []}
-                  chosen={store.chosen()?.cell}
-                  dropped={dropped()}
-                  onChoose={(cell) => {
-                    store.setChosen({ cell, name });
-                    store.setFront(name);
-                  }}
-                />
-              )}
-            </Show>
-            <Show when={pair.length === 1 && fell(name)}>
-              {(text) => <p class="hint">{text()}</p>}
-            </Show>
-          </figure>
-        )}
+              <Show when={isOne && fell(name)}>{(text) => <p class="hint">{text()}</p>}</Show>
+            </figure>
+          );
+        }}
       </For>
     </div>
   );
@@ -169,11 +156,7 @@ function Earlier(props: {
         label="Recovery map"
         value={props.shown ?? ''}
         options={options()}
-        onChoose={(id) => {
-          store.setWanted(id);
-          store.setChosen(undefined);
-          store.setArrangement('each');
-        }}
+        onChoose={store.showRecovery}
       />
     </Show>
   );
@@ -182,15 +165,17 @@ function Earlier(props: {
 export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHand>): JSX.Element {
   const { lab } = props;
   const map = createMemo(() => lab.scene()?.map);
-  const list = createRecoveryList(lab.catalog, map);
-  const report = createMemo(() => {
-    const now = store.report();
-    return now && now.id === list.shown()?.id ? now : undefined;
-  });
+  const shown = createShown(lab.catalog, map);
+  const report = (): RecoveryReport | undefined =>
+    store.report()?.id === shown()?.id ? store.report() : undefined;
   return (
     <div class="recovery">
-      <RecoveryStart lab={lab} list={list} />
-      <Earlier all={list.all()} shown={list.shown()?.id} isHere={(one) => one.map === map()} />
+      <RecoveryStart lab={lab} shown={shown()} />
+      <Earlier
+        all={lab.catalog.recoveries() ?? []}
+        shown={shown()?.id}
+        isHere={(one) => one.map === map()}
+      />
       <PlaceNotice lab={lab} place="recovery" />
       <Show
         when={lab.sight() === 'all'}
@@ -224,7 +209,7 @@ export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHa
                   />
                 </Show>
                 <Arrange report={report()} />
-                <Legend isDifference={store.arrangement() !== 'each'} />
+                <Legend isDifference={store.pair() !== undefined} />
                 <a href={addressOf(`/api/recoveries/${report().id}/map.html`)} download="">
                   HTML
                 </a>

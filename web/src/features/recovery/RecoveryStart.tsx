@@ -1,16 +1,20 @@
 // Chooses what is tried from the shown moment, and starts a recovery map.
 
-import { Show, createSignal, type JSX } from 'solid-js';
-import { createOffered } from '../../lab/offered';
+import { Show, type JSX } from 'solid-js';
+import { createTakingPart } from '../../lab/offered';
+import { operatorOnly } from '../../lab/operatorOnly';
 import type { Session, Trial } from '../../lab/slices';
+import { isActive } from '../../lab/trainingStage';
 import { RECOVERY_FIELDS } from '../../net/forms.gen';
-import type { ControllerName, RecoveryKind } from '../../net/protocol.gen';
+import type { RecoveryKind, RecoverySummary } from '../../net/protocol.gen';
+import { createAttempt } from '../../ui/attempt';
 import { CheckField, ChoiceField, NumberField } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
 import { numberOf } from '../../ui/fields/number';
 import { clock } from '../../ui/format';
-import { type RecoveryList, isActive } from './recoveries';
-import { type Draft, store } from './store';
+import { SmallButton } from '../../ui/SmallButton';
+import { cancelRecovery, startRecovery } from './recoveries';
+import { change, draft, edits } from './store';
 
 const KINDS: readonly (readonly [RecoveryKind, string])[] = [
   ['place', 'put the bead elsewhere'],
@@ -25,23 +29,24 @@ const COLUMNS: Readonly<Record<RecoveryKind, string>> = {
   blind: 'Times',
 };
 
-export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList }): JSX.Element {
+export function RecoveryStart(props: {
+  lab: Session & Trial;
+  shown: RecoverySummary | undefined;
+}): JSX.Element {
   const { lab } = props;
-  /** Why the map could not be cancelled. */
-  const [refusal, setRefusal] = createSignal<string>();
-  const { draft } = store;
-  const change = (part: Partial<Draft>): void => {
-    store.setDraft({ ...draft(), ...part });
-  };
-  const { offered, label } = createOffered(lab);
-  const wanted = (): ControllerName[] =>
-    offered().filter((name) => !draft().left_out.includes(name));
+  const { attempt, refusal } = createAttempt();
+  const { wanted, field } = createTakingPart(
+    lab,
+    () => draft().left_out,
+    (left_out) => {
+      change({ left_out });
+    },
+  );
   const start = async (): Promise<void> => {
     const tick = lab.state()?.tick;
     if (tick === undefined) return;
-    setRefusal(undefined);
     const { kind, grid, repeats, within_s, seed } = draft();
-    await props.list.start({
+    await startRecovery({
       session: lab.session,
       tick,
       kind,
@@ -52,17 +57,6 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
       within_s: numberOf(within_s),
       full: false,
     });
-  };
-  const cancel = async (id: string): Promise<void> => {
-    try {
-      await props.list.cancel(id);
-    } catch (reason) {
-      setRefusal(reason instanceof Error ? reason.message : String(reason));
-    }
-  };
-  const running = (): string | undefined => {
-    const shown = props.list.shown();
-    return shown && isActive(shown) ? shown.id : undefined;
   };
   return (
     <Form
@@ -76,16 +70,14 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
       disabled={!lab.canOperate()}
       beside={
         <>
-          <Show when={running()}>
+          <Show when={props.shown && isActive(props.shown) && props.shown.id}>
             {(id) => (
-              <button
-                type="button"
-                class="small"
-                disabled={!lab.canOperate()}
-                onClick={() => void cancel(id())}
+              <SmallButton
+                {...operatorOnly(lab)}
+                onClick={() => void attempt(cancelRecovery(id()))}
               >
                 Cancel map
-              </button>
+              </SmallButton>
             )}
           </Show>
           <span class="refusal" role="alert">
@@ -94,60 +86,12 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
         </>
       }
     >
-      <ChoiceField
-        name="kind"
-        label="Disturbance"
-        value={draft().kind}
-        options={KINDS}
-        onChoose={(kind) => {
-          change({ kind });
-        }}
-      />
-      <NumberField
-        {...RECOVERY_FIELDS.grid}
-        label={COLUMNS[draft().kind]}
-        value={draft().grid}
-        onInput={(grid) => {
-          change({ grid });
-        }}
-      />
-      <NumberField
-        {...RECOVERY_FIELDS.repeats}
-        value={draft().repeats}
-        onInput={(repeats) => {
-          change({ repeats });
-        }}
-      />
-      <NumberField
-        {...RECOVERY_FIELDS.within_s}
-        value={draft().within_s}
-        onInput={(within_s) => {
-          change({ within_s });
-        }}
-      />
-      <NumberField
-        name="seed"
-        label="Noise seed"
-        min={0}
-        isWhole
-        value={draft().seed}
-        onInput={(seed) => {
-          change({ seed });
-        }}
-      />
-      <CheckField
-        name="controllers"
-        label="Controllers"
-        hideLabel
-        verb="Try"
-        missing="Choose at least one controller."
-        all={offered()}
-        chosen={wanted()}
-        text={label}
-        onChoose={(names) => {
-          change({ left_out: offered().filter((name) => !names.includes(name)) });
-        }}
-      />
+      <ChoiceField {...edits('kind')} label="Disturbance" options={KINDS} />
+      <NumberField {...RECOVERY_FIELDS.grid} {...edits('grid')} label={COLUMNS[draft().kind]} />
+      <NumberField {...RECOVERY_FIELDS.repeats} {...edits('repeats')} />
+      <NumberField {...RECOVERY_FIELDS.within_s} {...edits('within_s')} />
+      <NumberField {...edits('seed')} label="Noise seed" min={0} isWhole />
+      <CheckField {...field} verb="Try" />
     </Form>
   );
 }

@@ -34,6 +34,22 @@ export const rowsOf = (
   name: string,
 ): readonly RecoveryCell[] => cells.filter(({ controller }) => controller === name);
 
+/** How each cell looks, by its number; `pair` has the index of one controller or of two. */
+export function looksOf(
+  report: RecoveryReport,
+  pair: readonly number[],
+): ReadonlyMap<number, Look> {
+  const [first = [], second] = pair.map((index) => rowsOf(report, report.names[index] ?? ''));
+  if (!second) return new Map(first.map((row) => [row.cell, look(row)]));
+  const others = new Map(second.map((row) => [row.cell, row]));
+  return new Map(
+    first.flatMap((row) => {
+      const other = others.get(row.cell);
+      return other ? [[row.cell, difference(row, other)] as const] : [];
+    }),
+  );
+}
+
 /** `2 delivered, 1 lost (lifted off); median 12.3 s`. */
 export function cellWords(row: RecoveryCell): string {
   const parts = [`${row.delivered} delivered`];

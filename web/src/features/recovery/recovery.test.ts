@@ -1,7 +1,6 @@
 import { expect, it } from 'vitest';
 import type { RecoveryCell, RecoveryReport } from '../../net/protocol.gen';
-import { basinWords, cellAt, cellWords, difference, look, spotWords } from './cells';
-import { looksOf } from './looks';
+import { basinWords, cellAt, cellWords, difference, look, looksOf, spotWords } from './cells';
 import { drawingOf, nextShape } from './shapes';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.3, y_min_m: -0.5, y_max_m: -0.2 };

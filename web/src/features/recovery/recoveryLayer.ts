@@ -5,10 +5,8 @@ import type { Session, Trial } from '../../lab/slices';
 import type { LayerContext, MapLayer } from '../../plan/layer';
 import { pxFromWorld, type View } from '../../plan/transform';
 import type { Palette } from '../../ui/palette';
-import type { Look } from './cells';
-import { cellAt, rowsOf } from './cells';
-import { looksOf } from './looks';
-import { store } from './store';
+import { cellAt, type Look, looksOf, rowsOf } from './cells';
+import * as store from './store';
 
 const FAINTEST = 0.15;
 const DENSEST = 0.55;
@@ -107,9 +105,8 @@ export const RECOVERY_LAYER: MapLayer = {
     const squares = createMemo((): readonly Square[] => {
       const report = store.report();
       if (report?.kind !== 'place' || report.map !== lab.scene()?.map) return [];
-      const arrangement = store.arrangement();
-      const front = Math.max(0, report.names.indexOf(store.front() ?? ''));
-      const pair = arrangement === 'each' ? [front] : arrangement;
+      const front = Math.max(0, report.names.indexOf(store.chosen()?.name ?? ''));
+      const pair = store.pair() ?? [front];
       const looks = looksOf(report, pair);
       const at = store.dropped();
       const dropped = at && cellAt(report, at);

@@ -1,5 +1,6 @@
 // The cells of a recovery map as shapes of a drawing. Pure.
 
+import { nextToward, type Vec2 } from '../../lab/geometry';
 import type { Rect, RecoveryCell, RecoveryReport } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
 import { mm, rowsOf } from './cells';
@@ -134,18 +135,10 @@ export function drawingOf(report: RecoveryReport, name: string, workspace: Rect)
 export function nextShape(
   shapes: readonly Shape[],
   from: number | undefined,
-  [dx, dy]: readonly [number, number],
+  direction: Vec2,
 ): number | undefined {
   const here = shapes.find(({ cell }) => cell === from)?.middle;
   if (!here) return shapes[0]?.cell;
-  let best: { cell: number; far: number } | undefined;
-  for (const { cell, middle } of shapes) {
-    const [x, y] = [middle[0] - here[0], middle[1] - here[1]];
-    const along = x * dx + y * dy;
-    const aside = Math.abs(x * dy - y * dx);
-    if (along <= 1e-6 || aside > along) continue;
-    const far = along + 2 * aside;
-    if (!best || far < best.far) best = { cell, far };
-  }
-  return best?.cell ?? from;
+  const middles = shapes.map(({ middle }) => middle);
+  return shapes[nextToward(middles, here, direction) ?? -1]?.cell ?? from;
 }

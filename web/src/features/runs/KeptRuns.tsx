@@ -1,12 +1,14 @@
 // The runs that rewinds, resets and other scenarios have left behind, and a way back to each.
 
-import { For, Show, createEffect, createMemo, type JSX } from 'solid-js';
+import { For, Show, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
 import type { Session, Trial } from '../../lab/slices';
 import { createPopover } from '../../ui/popover';
 import { runWords } from './runs';
-import { seenOf } from './seen';
 import './runs.css';
+
+/** Number of the newest run that the user has seen; undefined until the first scene. Outside of the component, which goes with the laboratory. */
+const [seen, setSeen] = createSignal<number>();
 
 export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
@@ -18,7 +20,6 @@ export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
   );
   /** Newest first. */
   const runs = createMemo(() => [...(lab.scene()?.kept_runs ?? [])].reverse());
-  const [seen, setSeen] = seenOf(lab);
   const newest = createMemo(() => runs()[0]?.number ?? 0);
   createEffect(() => {
     if (!lab.scene()) return;

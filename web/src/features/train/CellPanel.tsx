@@ -7,8 +7,7 @@ import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
 import { counted, fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
-import type { Theme } from '../../ui/theme';
-import { rangeAround, ROOM, updateSplits, updateText } from './curves';
+import { alongUpdates, rangeAround } from './curves';
 import { fanAt } from './grid';
 
 const LINE = { color: 'rl', joinsGaps: true } as const;
@@ -24,12 +23,12 @@ export function CellPanel(props: {
   /** Updates at the end of the training. */
   total: number;
   palette: () => Palette;
-  theme: () => Theme;
 }): JSX.Element {
   const [pointed, setPointed] = createSignal<number>();
   const fan = createMemo(() => fanAt(props.frames, props.cell));
   const quantile = (index: number): readonly number[] => fan().quantiles[index] ?? [];
   const context: CurveContext = {
+    ...alongUpdates(() => props.total),
     palette: () => props.palette(),
     lines: [
       { ...LINE, label: '.95', isEdge: true },
@@ -42,12 +41,8 @@ export function CellPanel(props: {
       [0, 1],
       [2, 3],
     ],
-    xRange: () => [0, ROOM * props.total],
-    xSplits: (most) => updateSplits(props.total, most),
     yRange: rangeAround,
-    xText: updateText,
     yText: (value) => fixed(value, 2),
-    shades: () => [],
     rules: createMemo(() =>
       props.frame
         ? [{ axis: 'x', at: props.frame.update, label: '', color: 'text', dashed: true } as const]
@@ -88,7 +83,6 @@ export function CellPanel(props: {
         title="Expected return at this cell"
         unit="over the updates"
         name={`Quantiles of the return at this cell over the updates: ${counted(props.frames.length, 'value map')} of ${props.count}`}
-        theme={props.theme}
         keys={[{ label: 'median', color: 'rl' }]}
         context={context}
         data={data()}

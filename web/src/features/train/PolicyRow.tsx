@@ -2,33 +2,30 @@
 
 import { Show, createSignal, type JSX } from 'solid-js';
 import type { PolicyOrigin, PolicySummary } from '../../net/protocol.gen';
+import type { Attempt } from '../../ui/attempt';
 import { ConfirmButton } from '../../ui/ConfirmButton';
 import { roughly } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
-import type { Theme } from '../../ui/theme';
-import { TitleForm } from '../../ui/TitleForm';
+import { SmallButton } from '../../ui/SmallButton';
+import { createRenaming, TitleForm } from '../../ui/TitleForm';
+import { operatorOnly } from '../../lab/operatorOnly';
 import { policyName } from '../../lab/parameters';
+import type { Session } from '../../lab/slices';
 import { shareWords } from '../../lab/trainingStage';
 import { Curves } from './Curves';
 import { withLast } from './curves';
 import { changeWords, recipeOf } from './recipes';
-import { policyFile } from './trainings';
+import { discardPolicy, policyFile, renamePolicy } from './trainings';
 import { addressOf } from '../../net/base';
 
-export interface PolicyDeeds {
-  readonly onUse: () => void;
-  /** True if it was done. */
-  readonly onRename: (name: string) => Promise<boolean>;
-  readonly onDelete: () => Promise<boolean>;
-}
-
-interface RowProps extends PolicyDeeds {
+interface RowProps {
+  readonly lab: Session;
   readonly policy: PolicySummary;
-  readonly canOperate: boolean;
   /** Whether the live session uses it. */
   readonly isUsed: boolean;
+  readonly attempt: Attempt;
+  readonly onUse: () => void;
   readonly palette: () => Palette;
-  readonly theme: () => Theme;
 }
 
 function originWords({ query, elapsed_s }: PolicyOrigin): string {
@@ -60,7 +57,6 @@ function Origin(props: RowProps & { origin: PolicyOrigin }): JSX.Element {
             },
           ]}
           palette={props.palette}
-          theme={props.theme}
         />
       </Show>
     </details>
@@ -68,29 +64,16 @@ function Origin(props: RowProps & { origin: PolicyOrigin }): JSX.Element {
 }
 
 export function PolicyRow(props: RowProps): JSX.Element {
-  let renamer: HTMLButtonElement | undefined;
-  const [isRenaming, setRenaming] = createSignal(false);
   const name = (): string => props.policy.name;
-  const why = (): string | undefined =>
-    props.canOperate ? undefined : 'Only the operator can do this';
-  const endRenaming = (): void => {
-    setRenaming(false);
-    renamer?.focus();
-  };
-  const rename = async (next: string): Promise<void> => {
-    if (next === name() || (await props.onRename(next))) endRenaming();
-  };
+  const renaming = createRenaming((next) =>
+    next === name() ? Promise.resolve(true) : props.attempt(renamePolicy(name(), next)),
+  );
   return (
     <>
       <tr data-policy={name()}>
         <th scope="row">
-          <Show when={isRenaming()} fallback={<span class="policy-name">{name()}</span>}>
-            <TitleForm
-              label={`New name of ${name()}`}
-              value={name()}
-              onSave={(next) => void rename(next)}
-              onCancel={endRenaming}
-            />
+          <Show when={renaming.isOn()} fallback={<span class="policy-name">{name()}</span>}>
+            <TitleForm {...renaming.form} label={`New name of ${name()}`} value={name()} />
           </Show>
           <span class="about">
             {props.policy.is_shipped ? 'shipped' : 'added'}
@@ -111,18 +94,13 @@ export function PolicyRow(props: RowProps): JSX.Element {
           {props.policy.seed}
         </td>
         <td class="policy-deeds">
-          <button
-            type="button"
-            class="small"
+          <SmallButton
+            {...operatorOnly(props.lab)}
             aria-label={`Use it: ${name()}`}
-            disabled={!props.canOperate}
-            title={why()}
-            onClick={() => {
-              props.onUse();
-            }}
+            onClick={props.onUse}
           >
             Use it
-          </button>
+          </SmallButton>
           <a
             class="button small"
             href={addressOf(policyFile(name()))}
@@ -132,26 +110,19 @@ export function PolicyRow(props: RowProps): JSX.Element {
             Download
           </a>
           <Show when={!props.policy.is_shipped}>
-            <button
-              ref={renamer}
-              type="button"
-              class="small"
+            <SmallButton
+              {...operatorOnly(props.lab)}
+              {...renaming.button}
               aria-label={`Rename ${name()}`}
-              disabled={!props.canOperate}
-              title={why()}
-              onClick={() => {
-                setRenaming(true);
-              }}
             >
               Rename
-            </button>
+            </SmallButton>
             <ConfirmButton
+              {...operatorOnly(props.lab)}
               verb="Delete"
               of={name()}
               warning={props.isUsed ? 'The laboratory uses it.' : undefined}
-              disabled={!props.canOperate}
-              title={why()}
-              onYes={props.onDelete}
+              onYes={() => props.attempt(discardPolicy(name()))}
             />
           </Show>
         </td>

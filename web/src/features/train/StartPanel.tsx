@@ -3,7 +3,6 @@
 import { For, Show, createMemo, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import { RECIPES } from '../../net/forms.gen';
-import type { PolicySummary } from '../../net/protocol.gen';
 import { Form } from '../../ui/fields/Form';
 import {
   ChoiceField,
@@ -12,68 +11,49 @@ import {
   type Option,
   TextField,
 } from '../../ui/fields/fields';
+import { SmallButton } from '../../ui/SmallButton';
 import {
   BLANK,
+  changedSettings,
   NAME_LENGTH,
   nameFault,
   queryOf,
   SETTINGS,
   settingText,
   suggestedName,
-  withSetting,
 } from './recipes';
-import type { TrainState } from './state';
+import { change, choose, compare, draft, edits } from './state';
 import { startTraining } from './trainings';
 
-interface StartProps {
-  readonly lab: Session & Trial;
-  readonly state: TrainState;
+export function StartPanel(props: {
+  lab: Session & Trial;
   /** The new training is shown. */
-  readonly onStarted: () => void;
-}
-
-type Options = readonly Option[];
-
-/** Options that stay the same must not be replaced while the user chooses. */
-const sameOptions = { equals: (a: Options, b: Options) => a.join('\n') === b.join('\n') };
-
-export function StartPanel(props: StartProps): JSX.Element {
-  const { lab, state } = props;
+  onStarted: () => void;
+}): JSX.Element {
+  const { lab } = props;
   let folded!: HTMLDetailsElement;
-  const draft = state.draft;
   const maps = (): readonly string[] => lab.catalog.maps() ?? [];
-  const policies = (): readonly PolicySummary[] => lab.catalog.policies() ?? [];
-  const map = createMemo(() => {
-    const wanted = draft().map;
-    return wanted !== undefined && maps().includes(wanted) ? wanted : (lab.scene()?.map ?? '');
-  });
+  const map = createMemo(() => maps().find((one) => one === draft().map) ?? lab.scene()?.map ?? '');
   const name = createMemo(() => {
     const taken = [
-      ...policies().map((policy) => policy.name),
+      ...(lab.catalog.policies() ?? []).map((policy) => policy.name),
       ...(lab.catalog.trainings() ?? []).map(({ query }) => query.name),
     ];
     return draft().name ?? suggestedName(map(), taken);
   });
-  const mapOptions = createMemo<Options>(() => maps().map((one) => [one, one]), [], sameOptions);
-  const starts = createMemo<Options>(
-    () => [
-      ['', 'random weights'],
-      ...policies()
-        .filter(({ has_memory }) => !has_memory)
-        .map((policy) => [policy.reference, policy.name] as const),
-    ],
-    [],
-    sameOptions,
-  );
+  const starts = (): readonly Option[] => [
+    ['', 'random weights'],
+    ...(lab.catalog.policies() ?? [])
+      .filter(({ has_memory }) => !has_memory)
+      .map((policy) => [policy.reference, policy.name] as const),
+  ];
   const changed = (): number => Object.keys(draft().settings).length;
   const start = async (): Promise<void> => {
     const id = await startTraining(queryOf(draft(), map(), name()));
     // The next one gets a name of its own.
-    const { map: chosen, startFrom, recipe, settings, seed } = draft();
-    const same = { startFrom, recipe, settings, seed };
-    state.setDraft(chosen === undefined ? same : { ...same, map: chosen });
-    state.compare(undefined);
-    state.choose(id);
+    change({ name: undefined });
+    compare(undefined);
+    choose(id);
     folded.open = false;
     props.onStarted();
   };
@@ -89,42 +69,31 @@ export function StartPanel(props: StartProps): JSX.Element {
       why="Only the operator can start and change trainings."
     >
       <ChoiceField
-        name="map"
+        {...edits('map')}
         label="Map"
         value={map()}
-        options={mapOptions()}
-        onChoose={(value) => {
-          state.setDraft({ ...draft(), map: value });
-        }}
+        options={maps().map((one) => [one, one])}
       />
       <TextField
-        name="name"
+        {...edits('name')}
         label="Policy name"
         value={name()}
         maxLength={NAME_LENGTH}
         check={() => nameFault(name())}
-        onInput={(value) => {
-          state.setDraft({ ...draft(), name: value });
-        }}
       />
       <ChoiceField
-        name="start_from"
+        {...edits('start_from')}
         label="Start from"
         help="A policy that is trained already learns another map faster."
-        value={draft().startFrom}
         options={starts()}
-        onChoose={(startFrom) => {
-          state.setDraft({ ...draft(), startFrom });
-        }}
       />
       <ChoiceField
-        name="recipe"
+        {...edits('recipe')}
         label="Recipe"
         help={RECIPES.map(({ label, help }) => `${label}: ${help}`).join('\n')}
-        value={draft().recipe}
         options={RECIPES.map(({ name: recipe, label }) => [recipe, label] as const)}
         onChoose={(recipe) => {
-          state.setDraft({ ...draft(), recipe, settings: {} });
+          change({ recipe, settings: {} });
         }}
       />
       <details ref={folded} class="train-settings">
@@ -138,21 +107,21 @@ export function StartPanel(props: StartProps): JSX.Element {
           <For each={SETTINGS}>
             {(setting) => {
               const text = (): string => settingText(draft(), setting.name);
-              const change = (value: string): void => {
-                state.setDraft(withSetting(draft(), setting.name, value));
+              const put = (value: string): void => {
+                change({ settings: changedSettings(draft(), setting.name, value) });
               };
               switch (setting.kind) {
                 case 'number':
-                  return <NumberField {...setting} value={text()} onInput={change} />;
+                  return <NumberField {...setting} value={text()} onInput={put} />;
                 case 'choice':
-                  return <ChoiceField<string> {...setting} value={text()} onChoose={change} />;
+                  return <ChoiceField<string> {...setting} value={text()} onChoose={put} />;
                 case 'flag':
                   return (
                     <FlagField
                       {...setting}
                       value={text() === 'true'}
                       onChoose={(value) => {
-                        change(String(value));
+                        put(String(value));
                       }}
                     />
                   );
@@ -160,26 +129,20 @@ export function StartPanel(props: StartProps): JSX.Element {
             }}
           </For>
           <NumberField
-            name="seed"
+            {...edits('seed')}
             label="Seed"
             help="The same seed and the same settings give the same training."
             min={0}
             isWhole
-            value={draft().seed}
-            onInput={(seed) => {
-              state.setDraft({ ...draft(), seed });
-            }}
           />
         </div>
-        <button
-          type="button"
-          class="small"
+        <SmallButton
           onClick={() => {
-            state.setDraft({ ...draft(), settings: {}, seed: BLANK.seed });
+            change({ settings: {}, seed: BLANK.seed });
           }}
         >
           Reset the settings
-        </button>
+        </SmallButton>
       </details>
     </Form>
   );

@@ -3,6 +3,7 @@
 import { For, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
 import type { Layers } from './drawFrame';
+import { layers, setLayers } from './state';
 import '../../ui/legend.css';
 
 export function ValueScale(props: {
@@ -31,10 +32,7 @@ const LAYERS: readonly (readonly [keyof Layers, label: string, title: string])[]
   ['episodes', 'Episodes', 'Some episodes to the goal, again and again'],
 ];
 
-export function LayerToggles(props: {
-  layers: Layers;
-  onChange: (layers: Layers) => void;
-}): JSX.Element {
+export function LayerToggles(): JSX.Element {
   return (
     <fieldset class="train-layers" aria-label="Layers">
       <For each={LAYERS}>
@@ -42,9 +40,9 @@ export function LayerToggles(props: {
           <label title={title}>
             <input
               type="checkbox"
-              checked={props.layers[id]}
+              checked={layers()[id]}
               onChange={({ currentTarget }) => {
-                props.onChange({ ...props.layers, [id]: currentTarget.checked });
+                setLayers({ ...layers(), [id]: currentTarget.checked });
               }}
             />
             {label}
@@ -56,40 +54,27 @@ export function LayerToggles(props: {
 }
 
 /** The marks, drawn as on the plan. */
+const MARKS: readonly (readonly [kind: string, path: string, words: string])[] = [
+  ['goal', 'M5 0A5 5 0 1 1 -5 0A5 5 0 1 1 5 0M-3 0H3M0-3V3', 'goal'],
+  ['failed', 'M-4-4L4 4M-4 4L4-4', 'start that fails: into a wall'],
+  ['failed', 'M4 0A4 4 0 1 1 -4 0A4 4 0 1 1 4 0', 'start that fails: out of steps'],
+  ['greedy', 'M4.5 0A4.5 4.5 0 1 1 -4.5 0A4.5 4.5 0 1 1 4.5 0', 'episode with the best steps'],
+  ['exploring', 'M4.5 0A4.5 4.5 0 1 1 -4.5 0A4.5 4.5 0 1 1 4.5 0', 'episode with random steps too'],
+];
+
 export function Marks(): JSX.Element {
   return (
     <ul class="train-marks" aria-label="Marks">
-      <li>
-        <svg viewBox="-7 -7 14 14" aria-hidden="true">
-          <circle class="goal" r="5" />
-          <path class="goal" d="M-3 0H3M0-3V3" />
-        </svg>
-        goal
-      </li>
-      <li>
-        <svg viewBox="-7 -7 14 14" aria-hidden="true">
-          <path class="failed" d="M-4-4L4 4M-4 4L4-4" />
-        </svg>
-        start that fails: into a wall
-      </li>
-      <li>
-        <svg viewBox="-7 -7 14 14" aria-hidden="true">
-          <circle class="failed" r="4" />
-        </svg>
-        start that fails: out of steps
-      </li>
-      <li>
-        <svg viewBox="-7 -7 14 14" aria-hidden="true">
-          <circle class="greedy" r="4.5" />
-        </svg>
-        episode with the best steps
-      </li>
-      <li>
-        <svg viewBox="-7 -7 14 14" aria-hidden="true">
-          <circle class="exploring" r="4.5" />
-        </svg>
-        episode with random steps too
-      </li>
+      <For each={MARKS}>
+        {([kind, path, words]) => (
+          <li>
+            <svg viewBox="-7 -7 14 14" aria-hidden="true">
+              <path class={kind} d={path} />
+            </svg>
+            {words}
+          </li>
+        )}
+      </For>
     </ul>
   );
 }

@@ -1,54 +1,39 @@
 // A training in the list: what it does, and what can be done with it.
 
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
-import type { TrainingSummary } from '../../net/protocol.gen';
-import { ConfirmButton } from '../../ui/ConfirmButton';
+import { operatorOnly } from '../../lab/operatorOnly';
+import type { Session } from '../../lab/slices';
 import { isActive, stageSentence, stageWords, updateWords } from '../../lab/trainingStage';
+import type { TrainingSummary } from '../../net/protocol.gen';
+import { createAttempt } from '../../ui/attempt';
+import { ConfirmButton } from '../../ui/ConfirmButton';
+import { SmallButton } from '../../ui/SmallButton';
 import { discardTraining, pauseTraining, resumeTraining } from './trainings';
 import { isOpen, type Wish } from './wish';
 
-interface EntryProps {
-  readonly summary: TrainingSummary;
+export function TrainingEntry(props: {
+  lab: Session;
+  summary: TrainingSummary;
   /** The trainings that were requested earlier. */
-  readonly before: readonly TrainingSummary[];
-  readonly isShown: boolean;
-  readonly isCompared: boolean;
-  /** Whether it can be shown beside the shown one. */
-  readonly canCompare: boolean;
-  readonly canOperate: boolean;
+  before: readonly TrainingSummary[];
+  isShown: boolean;
+  /** Whether it is shown beside the shown one. */
+  isCompared: boolean;
   /** Whether its policy was deleted after the training. */
-  readonly isDeleted: boolean;
-  readonly onChoose: () => void;
-  readonly onCompare: () => void;
-  readonly onUse: () => void;
+  isDeleted: boolean;
+  onChoose: () => void;
+  onCompare: () => void;
+  onUse: () => void;
   /** Opens the view Evaluate with its policy. */
-  readonly onEvaluate: () => void;
-}
-
-export function TrainingEntry(props: EntryProps): JSX.Element {
-  const [refusal, setRefusal] = createSignal<string>();
+  onEvaluate: () => void;
+}): JSX.Element {
+  const { attempt, refusal } = createAttempt();
   const [wish, setWish] = createSignal<Wish>();
   let entry!: HTMLLIElement;
   let choose!: HTMLButtonElement;
   const name = (): string => props.summary.query.name;
-  const attempt = async (change: Promise<unknown>): Promise<boolean> => {
-    setRefusal(undefined);
-    try {
-      await change;
-      return true;
-    } catch (reason) {
-      setRefusal(reason instanceof Error ? reason.message : String(reason));
-      return false;
-    }
-  };
-  const removeIt = async (): Promise<void> => {
-    const other = entry.nextElementSibling ?? entry.previousElementSibling;
-    // The button is removed with its focus.
-    if (await attempt(discardTraining(props.summary.id))) other?.querySelector('button')?.focus();
-  };
-  const why = (): string | undefined =>
-    props.canOperate ? undefined : 'Only the operator can do this';
-  const isPaused = (): boolean => props.summary.stage === 'paused';
+  const canPause = (): boolean => isActive(props.summary) && props.summary.stage !== 'paused';
+  const pauseVerb = (): string => (canPause() ? 'Pause' : 'Resume');
   createEffect(() => {
     const now = wish();
     if (now && !isOpen(now, props.summary.stage)) setWish(undefined);
@@ -62,7 +47,7 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
   const pauseOrResume = (): void => {
     const { id } = props.summary;
     if (wish()) return;
-    if (isActive(props.summary) && !isPaused()) void request('pausing…', pauseTraining(id));
+    if (canPause()) void request('pausing…', pauseTraining(id));
     else void request('resuming…', resumeTraining(id));
   };
   const cancel = (): Promise<boolean> => {
@@ -70,6 +55,11 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
     // The button with the focus is removed.
     choose.focus();
     return answer;
+  };
+  const removeIt = async (): Promise<void> => {
+    const other = entry.nextElementSibling ?? entry.previousElementSibling;
+    // The button is removed with its focus.
+    if (await attempt(discardTraining(props.summary.id))) other?.querySelector('button')?.focus();
   };
   return (
     <li
@@ -100,109 +90,71 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
       />
       <p class="training-words number">{stageSentence(props.summary, props.before)}</p>
       <div class="training-deeds">
+        <Show when={props.isDeleted}>
+          <span class="about">policy deleted</span>
+        </Show>
+        <Show when={props.summary.policy !== null && !props.isDeleted}>
+          <SmallButton
+            {...operatorOnly(props.lab)}
+            aria-label={`Use it: ${name()}`}
+            onClick={props.onUse}
+          >
+            Use it
+          </SmallButton>
+          <SmallButton
+            aria-label={`Evaluate ${name()}`}
+            title="Many random trials with this policy on its map"
+            onClick={props.onEvaluate}
+          >
+            Evaluate
+          </SmallButton>
+        </Show>
+        <Show when={isActive(props.summary) || props.summary.stage === 'failed'}>
+          <SmallButton
+            {...operatorOnly(props.lab)}
+            aria-label={`${pauseVerb()} ${name()}`}
+            aria-disabled={wish() !== undefined}
+            onClick={pauseOrResume}
+          >
+            {pauseVerb()}
+          </SmallButton>
+        </Show>
         <Show
           when={isActive(props.summary)}
           fallback={
-            <>
-              <Show when={props.isDeleted}>
-                <span class="about">policy deleted</span>
-              </Show>
-              <Show when={props.summary.policy !== null && !props.isDeleted}>
-                <button
-                  type="button"
-                  class="small"
-                  aria-label={`Use it: ${name()}`}
-                  disabled={!props.canOperate}
-                  title={why()}
-                  onClick={() => {
-                    props.onUse();
-                  }}
-                >
-                  Use it
-                </button>
-                <button
-                  type="button"
-                  class="small"
-                  aria-label={`Evaluate ${name()}`}
-                  title="Many random trials with this policy on its map"
-                  onClick={() => {
-                    props.onEvaluate();
-                  }}
-                >
-                  Evaluate
-                </button>
-              </Show>
-              <Show when={props.summary.stage === 'failed'}>
-                <button
-                  type="button"
-                  class="small"
-                  aria-label={`Resume ${name()}`}
-                  disabled={!props.canOperate}
-                  aria-disabled={wish() !== undefined}
-                  title={why()}
-                  onClick={pauseOrResume}
-                >
-                  Resume
-                </button>
-              </Show>
-              <button
-                type="button"
-                class="small"
-                aria-label={`Remove ${name()} from the list`}
-                disabled={!props.canOperate}
-                title={why()}
-                onClick={() => void removeIt()}
-              >
-                Remove
-              </button>
-            </>
+            <SmallButton
+              {...operatorOnly(props.lab)}
+              aria-label={`Remove ${name()} from the list`}
+              onClick={() => void removeIt()}
+            >
+              Remove
+            </SmallButton>
           }
         >
-          <button
-            type="button"
-            class="small"
-            aria-label={`${isPaused() ? 'Resume' : 'Pause'} ${name()}`}
-            disabled={!props.canOperate}
-            aria-disabled={wish() !== undefined}
-            title={why()}
-            onClick={pauseOrResume}
-          >
-            {isPaused() ? 'Resume' : 'Pause'}
-          </button>
           <Show
             when={wish()}
             fallback={
               <ConfirmButton
+                {...operatorOnly(props.lab)}
                 verb="Cancel"
                 of={name()}
-                disabled={!props.canOperate}
-                title={why()}
                 onYes={cancel}
               />
             }
           >
-            <button
-              type="button"
-              class="small"
-              aria-label={`Cancel ${name()}`}
-              aria-disabled="true"
-            >
+            <SmallButton aria-label={`Cancel ${name()}`} aria-disabled="true">
               Cancel
-            </button>
+            </SmallButton>
           </Show>
         </Show>
-        <Show when={props.canCompare}>
-          <button
-            type="button"
-            class="small"
+        <Show when={!props.isShown}>
+          <SmallButton
             aria-label={`Compare with ${name()}`}
             aria-pressed={props.isCompared}
-            onClick={() => {
-              props.onCompare();
-            }}
+            onClick={props.onCompare}
           >
             Compare
-          </button>
+          </SmallButton>
         </Show>
       </div>
       <p class="refusal" role="alert">

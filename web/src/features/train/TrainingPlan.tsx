@@ -1,7 +1,7 @@
 // The map from above with a value map of the training, and the episodes that move on it.
 
 import { createEffect, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
-import type { Vec2 } from '../../lab/geometry';
+import { nextToward, type Vec2 } from '../../lab/geometry';
 import {
   GOAL_RADIUS_M,
   type MapCheck,
@@ -10,25 +10,19 @@ import {
 } from '../../net/protocol.gen';
 import { wallPath } from '../../plan/drawMap';
 import { createValues } from '../../plan/drawValues';
+import { ARROWS } from '../../plan/gesture';
 import { contextOf } from '../../plan/sheet';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
 import type { Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
 import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
-import { around, cellAt, grown, neighbour, valueCells } from './grid';
+import { around, cellAt, grown, valueCells } from './grid';
 
 const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
 const STEPS_PER_S = 14;
 /** The ends of the episodes are shown for as many steps. */
 const REST_STEPS = 14;
-
-const DIRECTIONS: Readonly<Partial<Record<string, Vec2>>> = {
-  ArrowRight: [1, 0],
-  ArrowLeft: [-1, 0],
-  ArrowUp: [0, 1],
-  ArrowDown: [0, -1],
-};
 
 interface PlanProps {
   readonly label: string;
@@ -123,13 +117,14 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   });
 
   const onKeyDown = (event: KeyboardEvent): void => {
-    const direction = DIRECTIONS[event.key];
+    const direction = ARROWS[event.key];
     const { cells } = props;
     if (!direction || !cells || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
-    const from = props.chosen ?? cellAt(cells, cells.goal_m);
-    const next = from === undefined ? 0 : (neighbour(cells, from, direction) ?? from);
-    const center = cells.centers_m[next];
+    const from = props.chosen ?? cellAt(cells, cells.goal_m) ?? 0;
+    const at = cells.centers_m[from];
+    const next = at && nextToward(cells.centers_m, at, direction);
+    const center = cells.centers_m[next ?? from];
     if (center) props.onChoose(center);
   };
   return (

@@ -9,57 +9,71 @@ import {
   onCleanup,
   type JSX,
 } from 'solid-js';
-import type { Vec2 } from '../../lab/geometry';
 import { checkOfMap } from '../../lab/maps';
-import type { MapCheck, TrainingFrame } from '../../net/protocol.gen';
+import type {
+  MapCheck,
+  TrainingFrame,
+  TrainingPoint,
+  TrainingSummary,
+} from '../../net/protocol.gen';
 import { isActive, progressWords } from '../../lab/trainingStage';
+import { createAttempt } from '../../ui/attempt';
 import { counted } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
-import type { Theme } from '../../ui/theme';
+import { SmallButton } from '../../ui/SmallButton';
 import { IS_TOUCH } from '../../ui/touch';
 import { CellPanel } from './CellPanel';
 import { Facts } from './Facts';
 import { cellAt } from './grid';
-import type { Live } from './live';
-import type { TrainState } from './state';
+import { layers, place_m, setPlace } from './state';
 import { TrainingPlan } from './TrainingPlan';
 import { ValueScale } from './TrainLegend';
+import { coarseToFine, createValueMaps } from './valueMaps';
 
 const PLAY_MS = 350;
 
-interface PaneProps {
-  readonly live: Live;
+export function WatchPane(props: {
+  /** Its id stays the same. */
+  summary: TrainingSummary;
+  points: readonly TrainingPoint[];
   /** What the training does, one sentence. */
-  readonly sentence: string;
+  sentence: string;
   /** The values of the first and the last colour. */
-  readonly range: readonly [number, number] | undefined;
+  range: readonly [number, number] | undefined;
   /** Whether more value maps may widen the range. */
-  readonly isGrowing: boolean;
-  readonly state: TrainState;
-  readonly palette: () => Palette;
-  readonly theme: () => Theme;
-}
-
-export function WatchPane(props: PaneProps): JSX.Element {
-  const { live, state } = props;
+  isGrowing: boolean;
+  palette: () => Palette;
+}): JSX.Element {
   const help = createUniqueId();
   const [map, setMap] = createSignal<MapCheck>();
-  /** Why the walls are missing. */
-  const [mapError, setMapError] = createSignal<string>();
-  checkOfMap(live.summary().query.map)
-    .then(setMap)
-    .catch((reason: unknown) => {
-      setMapError(reason instanceof Error ? reason.message : String(reason));
-    });
+  const walls = createAttempt();
+  void walls.attempt(checkOfMap(props.summary.query.map).then(setMap));
   /** Index of the shown value map; undefined: the newest. */
   const [at, setAt] = createSignal<number>();
   const [isPlaying, setPlaying] = createSignal(false);
-  const count = createMemo(() => live.summary().frames);
+  const count = createMemo(() => props.summary.frames);
   const last = (): number => Math.max(0, count() - 1);
   const index = createMemo(() => Math.min(at() ?? last(), last()));
+  const maps = createValueMaps(
+    () => props.summary,
+    // All of them for the fan of a cell.
+    () =>
+      [index(), ...(cell() === undefined ? [] : coarseToFine(count()))].filter(
+        (one) => one < count(),
+      ),
+  );
+  const cell = createMemo(() => {
+    const [cells, place] = [maps.cells(), place_m()];
+    return cells && place && cellAt(cells, place);
+  });
   // The one before stays until the next one has arrived.
-  const frame = createMemo<TrainingFrame | undefined>((before) => live.frame(index()) ?? before);
-  const isLoaded = (): boolean => live.frame(index()) !== undefined;
+  const frame = createMemo<TrainingFrame | undefined>(
+    (before) => maps.frames().get(index()) ?? before,
+  );
+  const inOrder = createMemo(() =>
+    [...maps.frames()].sort(([a], [b]) => a - b).map(([, frame]) => frame),
+  );
+  const isLoaded = (): boolean => maps.frames().has(index());
   createEffect(() => {
     if (!isPlaying()) return;
     const timer = setInterval(() => {
@@ -75,51 +89,41 @@ export function WatchPane(props: PaneProps): JSX.Element {
       clearInterval(timer);
     });
   });
-  const cell = createMemo(() => {
-    const [cells, place] = [live.cells(), state.place_m()];
-    return cells && place && cellAt(cells, place);
-  });
-  createEffect(() => {
-    if (cell() !== undefined) live.readAll();
-  });
   let scrubber!: HTMLInputElement;
   createEffect(() => {
     // In this order: a value above the limit would be lowered to it.
     scrubber.max = String(last());
     scrubber.value = String(index());
   });
-  const name = (): string => live.summary().query.name;
-  const choose = (place: Vec2): void => {
-    state.setPlace(place);
-  };
+  const name = (): string => props.summary.query.name;
   const empty = (): string =>
-    isActive(live.summary())
+    isActive(props.summary)
       ? `${props.sentence} The first value map comes with the first updates.`
       : 'This training has no value maps.';
   const words = (): string => {
     const now = frame();
     if (now) return `after ${counted(now.update, 'update')}`;
-    return isActive(live.summary()) ? 'no value map yet' : '–';
+    return isActive(props.summary) ? 'no value map yet' : '–';
   };
   return (
     <section class="train-pane" aria-label={name()}>
       <h3>
         {name()}
-        <span class="about">{live.summary().query.map}</span>
-        <span class="train-now about number">{progressWords(live.summary())}</span>
+        <span class="about">{props.summary.query.map}</span>
+        <span class="train-now about number">{progressWords(props.summary)}</span>
       </h3>
       <div class="train-picture">
         <TrainingPlan
-          label={`Plan of ${live.summary().query.map} with the values of ${name()}`}
+          label={`Plan of ${props.summary.query.map} with the values of ${name()}`}
           helpId={help}
           palette={props.palette()}
           map={map()}
-          cells={live.cells()}
+          cells={maps.cells()}
           frame={frame()}
           range={props.range}
-          layers={state.layers()}
+          layers={layers()}
           chosen={cell()}
-          onChoose={choose}
+          onChoose={setPlace}
         />
         <Show when={count() === 0}>
           <p class="train-veil">{empty()}</p>
@@ -127,9 +131,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
       </div>
       <ValueScale range={props.range} isGrowing={props.isGrowing} />
       <div class="train-time">
-        <button
-          type="button"
-          class="small"
+        <SmallButton
           aria-label={`${isPlaying() ? 'Stop' : 'Play'} the value maps of ${name()}`}
           disabled={count() < 2}
           onClick={() => {
@@ -138,7 +140,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
           }}
         >
           {isPlaying() ? 'Stop' : 'Play'}
-        </button>
+        </SmallButton>
         <input
           ref={scrubber}
           type="range"
@@ -152,9 +154,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
             setAt(currentTarget.valueAsNumber);
           }}
         />
-        <button
-          type="button"
-          class="small"
+        <SmallButton
           aria-label={`Follow the newest value map of ${name()}`}
           aria-pressed={at() === undefined}
           onClick={() => {
@@ -163,15 +163,15 @@ export function WatchPane(props: PaneProps): JSX.Element {
           }}
         >
           Newest
-        </button>
+        </SmallButton>
         <output class="number" aria-live="off" data-testid="train-update">
           {words()}
         </output>
       </div>
       <p class="refusal" role="alert">
-        {live.error() ?? mapError()}
+        {maps.error() ?? walls.refusal()}
       </p>
-      <Facts summary={live.summary()} points={live.points()} frame={frame()} />
+      <Facts summary={props.summary} points={props.points} frame={frame()} />
       <p id={help} class="hint">
         <Show
           when={cell() === undefined}
@@ -183,18 +183,17 @@ export function WatchPane(props: PaneProps): JSX.Element {
           its value changes with the updates.
         </Show>
       </p>
-      <Show when={live.cells()}>
+      <Show when={maps.cells()}>
         {(cells) => (
           <Show when={cell() !== undefined}>
             <CellPanel
               cells={cells()}
               cell={cell() ?? 0}
               frame={frame()}
-              frames={live.frames()}
+              frames={inOrder()}
               count={count()}
-              total={live.summary().updates_total}
+              total={props.summary.updates_total}
               palette={props.palette}
-              theme={props.theme}
             />
           </Show>
         )}

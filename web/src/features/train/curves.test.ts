@@ -1,11 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import {
-  columnsOf,
   firstWords,
   KINDS,
   newestExamination,
   rangeAround,
-  readWords,
   updateSplits,
   updateText,
   withLast,
@@ -24,22 +22,7 @@ const EXAMINED = {
   reached_wilson95: [0.43, 0.57] as [number, number],
 };
 
-describe('the columns', () => {
-  it('have the updates of both trainings together', () => {
-    const a = [pointOf(100), pointOf(200)];
-    const b = [pointOf(100, { loss_mean: 0.5 }), pointOf(300)];
-    const columns = columnsOf(kind('loss'), [a, b]);
-    expect(columns[0]).toEqual([100, 200, 300]);
-    expect(columns[3]).toEqual([0.01, 0.01, null]);
-    expect(columns[6]).toEqual([0.5, null, 0.01]);
-    expect(readWords(kind('loss'), ['a', 'b'], columns, 0)).toBe(
-      'After 100 updates: a 0.010, b 0.500',
-    );
-    expect(readWords(kind('loss'), ['a', 'b'], columns, 1)).toBe('After 200 updates: a 0.010');
-    const none = columnsOf(kind('examination'), [a, b]);
-    expect(readWords(kind('examination'), ['a', 'b'], none, 1)).toBeUndefined();
-  });
-
+describe('the values', () => {
   it('have a band around the reward and the examinations', () => {
     expect(kind('reward').values(pointOf(100))).toEqual([0.7, 0.3, 0.5]);
     expect(kind('reward').values(pointOf(100, { reward_mean: null }))).toEqual([null, null, null]);
@@ -61,16 +44,12 @@ describe('the last examination', () => {
     const all = withLast(points, 200, EXAMINED);
     expect(all.map(({ examined }) => examined)).toEqual([null, EXAMINED]);
     expect(all[1]).toMatchObject(pointOf(200, { examined: EXAMINED }));
-    const columns = columnsOf(kind('examination'), [all]);
-    expect(readWords(kind('examination'), ['a'], columns, 1)).toBe(
-      'After 200 updates: a 50 (43 to 57) %',
-    );
   });
 
   it('has a point of its own if the updates end between two points', () => {
     const all = withLast(points, 250, EXAMINED);
     expect(all.map(({ update }) => update)).toEqual([100, 200, 250]);
-    expect(columnsOf(kind('exploring'), [all])[3]?.at(-1)).toBeNull();
+    expect(all.map(kind('exploring').values).at(-1)).toEqual([null, null, null]);
     expect(withLast(points, 250, null)).toBe(points);
   });
 

@@ -1,39 +1,44 @@
-// The curves of one training or two, as columns of a plot. Pure.
+// The curves of trainings: their values, and their axis of updates. Pure.
 
-import { fixed } from '../../ui/format';
 import type { Examination, TrainingPoint, TrainingSummary } from '../../net/protocol.gen';
+import type { Interval, Measure } from '../../ui/series';
+import type { Along } from '../../ui/SeriesPlot';
 
-type Column = (number | null)[];
-
-export interface Kind {
+export interface Kind extends Measure {
   readonly id: 'reward' | 'loss' | 'exploring' | 'examination';
-  readonly title: string;
-  readonly unit: string;
-  /** The edges of the band, upper one first, and the line. Null where a point has no value. */
-  readonly values: (point: TrainingPoint) => readonly [number | null, number | null, number | null];
-  /** Ends of the axis; without, around the values. */
-  readonly range?: readonly [number, number];
-  readonly digits: number;
-  readonly suffix?: string;
-  /** Whether only some points have a value. */
-  readonly isSparse?: true;
+  readonly values: (point: TrainingPoint) => Interval;
   readonly help: string;
 }
+
+/** Ends of an axis around the values, with some room. */
+export function rangeAround(max: number, min: number): [number, number] {
+  // A plot without values has no least and greatest one.
+  if (!Number.isFinite(max) || !Number.isFinite(min)) return [0, 1];
+  const room = Math.max(0.02, 0.06 * (max - min));
+  return [min - room, max + room];
+}
+
+const SHARE = {
+  unit: '% of episodes',
+  digits: 0,
+  suffix: ' %',
+  axisDigits: 0,
+  range: (): [number, number] => [0, 100],
+};
 
 export const KINDS: readonly Kind[] = [
   {
     id: 'reward',
     title: 'Reward',
     unit: 'per episode',
-    values: ({ reward_mean, reward_deviation }) =>
-      reward_mean === null
-        ? [null, null, null]
-        : [
-            reward_mean + (reward_deviation ?? 0),
-            reward_mean - (reward_deviation ?? 0),
-            reward_mean,
-          ],
+    values: ({ reward_mean: mean, reward_deviation }) => {
+      const deviation = reward_deviation ?? 0;
+      return mean === null ? [null, null, null] : [mean + deviation, mean - deviation, mean];
+    },
     digits: 2,
+    axisDigits: 2,
+    range: rangeAround,
+    intervals: 'band',
     help: 'Sum of the rewards of an episode: the mean, with its standard deviation as a band.',
   },
   {
@@ -42,22 +47,23 @@ export const KINDS: readonly Kind[] = [
     unit: 'per update',
     values: ({ loss_mean }) => [null, null, loss_mean],
     digits: 3,
+    axisDigits: 2,
+    range: rangeAround,
+    intervals: 'band',
     help: 'How far the network’s predictions were from what happened. It need not fall to zero.',
   },
   {
+    ...SHARE,
     id: 'exploring',
     title: 'Reached while exploring',
-    unit: '% of episodes',
     values: ({ reached, ended }) => [null, null, ended === 0 ? null : (100 * reached) / ended],
-    range: [0, 100],
-    digits: 0,
-    suffix: ' %',
+    intervals: 'band',
     help: 'Share of the episodes of the training that reached their goals, random steps included.',
   },
   {
+    ...SHARE,
     id: 'examination',
     title: 'Reached in examinations',
-    unit: '% of episodes',
     values: ({ examined }) =>
       examined
         ? [
@@ -66,10 +72,7 @@ export const KINDS: readonly Kind[] = [
             (100 * examined.reached) / examined.episodes,
           ]
         : [null, null, null],
-    range: [0, 100],
-    digits: 0,
-    suffix: ' %',
-    isSparse: true,
+    intervals: 'both',
     help: 'The same without random steps, with random starts and goals. Bar: the 95 % interval. The last examination has the most episodes.',
   },
 ];
@@ -88,18 +91,12 @@ export function withLast(
   return [...points, { update, steps, episodes, ...nothing, ended: 0, reached: 0, examined }];
 }
 
-export interface Examined {
-  readonly examined: Examination;
-  /** Updates before it. */
-  readonly update: number;
-}
-
-/** The last examination once a training is done, before that the newest small one. */
+/** The last examination once a training is done, before that the newest small one, and the updates before it. */
 export function newestExamination(
-  { stage, updates, examined }: TrainingSummary,
+  { stage, updates: update, examined }: TrainingSummary,
   points: readonly TrainingPoint[],
-): Examined | undefined {
-  if (stage === 'done' && examined) return { examined, update: updates };
+) {
+  if (stage === 'done' && examined) return { examined, update };
   const point = points.findLast((one) => one.examined !== null);
   return point?.examined ? { examined: point.examined, update: point.update } : undefined;
 }
@@ -115,32 +112,8 @@ export function firstWords(total: number, isOver: boolean): string {
     : `No examination yet: the first comes after ${EXAMINED_EVERY} updates.`;
 }
 
-/** The updates of all trainings together, and for each training its columns: upper edge, lower edge, line. */
-export function columnsOf(
-  kind: Kind,
-  curves: readonly (readonly TrainingPoint[])[],
-): [number[], ...Column[]] {
-  const updates = [...new Set(curves.flatMap((points) => points.map(({ update }) => update)))];
-  updates.sort((a, b) => a - b);
-  const columns = curves.flatMap((points) => {
-    const byUpdate = new Map(points.map((point) => [point.update, kind.values(point)]));
-    return ([0, 1, 2] as const).map((part) =>
-      updates.map((update) => byUpdate.get(update)?.[part] ?? null),
-    );
-  });
-  return [updates, ...columns];
-}
-
-/** Ends of an axis around the values, with some room. */
-export function rangeAround(max: number, min: number): [number, number] {
-  // A plot without values has no least and greatest one.
-  if (!Number.isFinite(max) || !Number.isFinite(min)) return [0, 1];
-  const room = Math.max(0.02, 0.06 * (max - min));
-  return [min - room, max + room];
-}
-
 /** Ends of the axis of updates, as a multiple of the last one: its mark is inside the plot. */
-export const ROOM = 1.02;
+const ROOM = 1.02;
 
 const ROUND = [1, 2, 2.5, 5];
 
@@ -157,24 +130,11 @@ export function updateText(updates: number): string {
   return updates >= 1000 && updates % 100 === 0 ? `${updates / 1000}k` : String(updates);
 }
 
-/** The values at one update, for each training that has one; undefined without. */
-export function readWords(
-  kind: Kind,
-  names: readonly string[],
-  columns: readonly (readonly (number | null)[])[],
-  index: number,
-): string | undefined {
-  const parts = names.flatMap((name, training) => {
-    const [high, low, value] = [1, 2, 3].map((part) => columns[3 * training + part]?.[index]);
-    if (typeof value !== 'number') return [];
-    const text = (one: number): string => fixed(one, kind.digits);
-    const interval =
-      kind.isSparse && typeof low === 'number' && typeof high === 'number'
-        ? ` (${text(low)} to ${text(high)})`
-        : '';
-    return [`${name} ${text(value)}${interval}${kind.suffix ?? ''}`];
-  });
-  return parts.length === 0
-    ? undefined
-    : `After ${columns[0]?.[index] ?? 0} updates: ${parts.join(', ')}`;
-}
+/** The axis of all updates of a training. */
+export const alongUpdates = (total: () => number): Along => ({
+  words: 'the updates',
+  at: (update) => `After ${update} updates`,
+  xRange: () => [0, ROOM * total()],
+  xSplits: (most) => updateSplits(total(), most),
+  xText: updateText,
+});

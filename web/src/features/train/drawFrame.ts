@@ -81,12 +81,14 @@ function drawStarts(ctx: Ctx, base: Base, cells: TrainingCells, frame: TrainingF
 function drawChosen(ctx: Ctx, { view, palette }: Base, cells: TrainingCells, center: Vec2): void {
   const side = Math.max(9, cells.spacing_m * view.pxPerM + 2);
   const [x, y] = pxFromWorld(view, center);
-  ctx.strokeStyle = palette.floor;
-  ctx.lineWidth = 5;
-  ctx.strokeRect(x - side / 2, y - side / 2, side, side);
-  ctx.strokeStyle = palette.focus;
-  ctx.lineWidth = 2.5;
-  ctx.strokeRect(x - side / 2, y - side / 2, side, side);
+  for (const [colour, width] of [
+    [palette.floor, 5],
+    [palette.focus, 2.5],
+  ] as const) {
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = width;
+    ctx.strokeRect(x - side / 2, y - side / 2, side, side);
+  }
 }
 
 export function drawBase(ctx: Ctx, base: Base): void {

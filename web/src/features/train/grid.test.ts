@@ -1,32 +1,11 @@
 import { describe, expect, it } from 'vitest';
-import {
-  around,
-  cellAt,
-  fanAt,
-  grown,
-  neighbour,
-  placeAfter,
-  startsThat,
-  valueCells,
-} from './grid';
+import { around, cellAt, fanAt, grown, placeAfter, startsThat, valueCells } from './grid';
 import { CELLS, frameOf } from './testing';
 
 describe('the cells', () => {
   it('are found by place', () => {
     expect(cellAt(CELLS, [0.021, 0.002])).toBe(1);
     expect(cellAt(CELLS, [0.1, 0.1])).toBeUndefined();
-  });
-
-  it('are found by direction', () => {
-    expect(neighbour(CELLS, 0, [1, 0])).toBe(1);
-    expect(neighbour(CELLS, 2, [0, 1])).toBe(3);
-    expect(neighbour(CELLS, 0, [-1, 0])).toBeUndefined();
-    // Across a gap.
-    const gap = {
-      ...CELLS,
-      centers_m: [[0, 0] as [number, number], [0.2, 0.01] as [number, number]],
-    };
-    expect(neighbour(gap, 0, [1, 0])).toBe(1);
   });
 
   it('have a rectangle around them', () => {

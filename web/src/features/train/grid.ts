@@ -1,7 +1,7 @@
-// The cells of a training's map: which one is at a place, which one is beside another, and what a value map says of
+// The cells of a training's map: which one is at a place, and what a value map says of
 // each. Pure.
 
-import type { Vec2 } from '../../lab/geometry';
+import { distance, leastOf, type Vec2 } from '../../lab/geometry';
 import type {
   EpisodeEnding,
   Rect,
@@ -13,38 +13,11 @@ import type { ValueCells } from '../../plan/values';
 
 /** A place farther than this from each cell, in cells, belongs to none. */
 const MOST_CELLS = 1.5;
-/** How much a cell beside the direction of an arrow key counts as farther. */
-const ASIDE = 3;
-
-function leastOf(centers_m: readonly Vec2[], cost: (center: Vec2) => number): number | undefined {
-  let best: { readonly index: number; readonly cost: number } | undefined;
-  centers_m.forEach((center, index) => {
-    const now = cost(center);
-    if (Number.isFinite(now) && now < (best?.cost ?? Infinity)) best = { index, cost: now };
-  });
-  return best?.index;
-}
-
 /** Index of the cell at a place; undefined far from all cells. */
-export function cellAt({ centers_m, spacing_m }: TrainingCells, [x, y]: Vec2): number | undefined {
-  return leastOf(centers_m, ([x_m, y_m]) => {
-    const distance_m = Math.hypot(x_m - x, y_m - y);
+export function cellAt({ centers_m, spacing_m }: TrainingCells, place: Vec2): number | undefined {
+  return leastOf(centers_m, (center) => {
+    const distance_m = distance(center, place);
     return distance_m <= MOST_CELLS * spacing_m ? distance_m : Infinity;
-  });
-}
-
-/** The next cell in a direction, also across a wall; undefined at the end. */
-export function neighbour(
-  { centers_m, spacing_m }: TrainingCells,
-  from: number,
-  [dx, dy]: Vec2,
-): number | undefined {
-  const at = centers_m[from];
-  if (!at) return undefined;
-  return leastOf(centers_m, ([x_m, y_m]) => {
-    const along = (x_m - at[0]) * dx + (y_m - at[1]) * dy;
-    const aside = Math.abs((x_m - at[0]) * dy - (y_m - at[1]) * dx);
-    return along > spacing_m / 2 && aside <= along ? along + ASIDE * aside : Infinity;
   });
 }
 

@@ -9,9 +9,14 @@ import {
   SETTINGS,
   settingText,
   suggestedName,
-  withSetting,
+  changedSettings,
+  type SettingName,
 } from './recipes';
 
+const withSetting = (draft: Draft, name: SettingName, text: string): Draft => ({
+  ...draft,
+  settings: changedSettings(draft, name, text),
+});
 const made = (draft: Draft) => queryOf(draft, 'posts', 'my-posts');
 
 describe('a name', () => {
@@ -43,10 +48,14 @@ describe('the request', () => {
   });
 
   it('has the changed settings', () => {
-    let draft = withSetting({ ...BLANK, recipe: 'paper', startFrom: 'colon' }, 'discount', '0.5');
-    draft = withSetting(draft, 'noisy', 'false');
-    draft = withSetting(draft, 'fusion', 'late');
-    const query = made(draft);
+    const draft = { ...BLANK, recipe: 'paper', start_from: 'colon' } as const;
+    const query = made(
+      withSetting(
+        withSetting(withSetting(draft, 'discount', '0.5'), 'noisy', 'false'),
+        'fusion',
+        'late',
+      ),
+    );
     expect(query).toMatchObject({
       recipe: 'paper',
       settings: { discount: 0.5, noisy: false, fusion: 'late', updates: null },

@@ -13,18 +13,25 @@ export const SETTINGS = Object.values(TRAINING_SETTINGS);
 /** The form, as typed. */
 export interface Draft {
   /** Undefined: the map of the session. */
-  readonly map?: string;
+  readonly map: string | undefined;
   /** Undefined: a suggestion. */
-  readonly name?: string;
+  readonly name: string | undefined;
   /** Empty: random weights. */
-  readonly startFrom: string;
+  readonly start_from: string;
   readonly recipe: RecipeName;
   /** Those that the user has changed. */
   readonly settings: Partial<Readonly<Record<SettingName, string>>>;
   readonly seed: string;
 }
 
-export const BLANK: Draft = { startFrom: '', recipe: 'quick', settings: {}, seed: '1' };
+export const BLANK: Draft = {
+  map: undefined,
+  name: undefined,
+  start_from: '',
+  recipe: 'quick',
+  settings: {},
+  seed: '1',
+};
 
 export const NAME_LENGTH = 40;
 const NAME = /^[a-z0-9][a-z0-9_-]{0,39}$/;
@@ -50,12 +57,11 @@ export function settingText({ recipe, settings }: Draft, name: SettingName): str
   return settings[name] ?? String(recipeOf(recipe).settings[name]);
 }
 
-/** The draft with a setting; one that is as in the recipe is no change. */
-export function withSetting(draft: Draft, name: SettingName, text: string): Draft {
+/** The changed settings with one more; one that is as in the recipe is no change. */
+export function changedSettings(draft: Draft, name: SettingName, text: string): Draft['settings'] {
   const isAsInRecipe = text === String(recipeOf(draft.recipe).settings[name]);
   const others = Object.entries(draft.settings).filter(([one]) => one !== name);
-  const settings = isAsInRecipe ? others : [...others, [name, text] as const];
-  return { ...draft, settings: Object.fromEntries(settings) };
+  return Object.fromEntries(isAsInRecipe ? others : [...others, [name, text]]);
 }
 
 /** The body of the request, from a draft without faults. */
@@ -71,7 +77,7 @@ export function queryOf(draft: Draft, map: string, name: string): TrainingQuery 
     seed: numberOf(draft.seed),
     recipe: draft.recipe,
     settings: Object.fromEntries(settings) as TrainingQuery['settings'],
-    start_from: draft.startFrom === '' ? null : draft.startFrom,
+    start_from: draft.start_from === '' ? null : draft.start_from,
     goal_m: null,
   };
 }

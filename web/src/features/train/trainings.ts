@@ -2,6 +2,7 @@
 
 import type { TrainingQuery, TrainingSummary } from '../../net/protocol.gen';
 import { patch, post, remove } from '../../net/requests';
+import { nameFault } from './recipes';
 
 export const TRAININGS = '/api/trainings';
 
@@ -25,7 +26,10 @@ export const discardTraining = (id: string): Promise<void> => remove(trainingPat
 export const uploadPolicy = (name: string, file: File): Promise<unknown> =>
   post(policyPath(name), file, 'application/octet-stream');
 
-export const renamePolicy = (name: string, next: string): Promise<unknown> =>
-  patch(policyPath(name), JSON.stringify({ name: next }));
+export async function renamePolicy(name: string, next: string): Promise<void> {
+  const fault = nameFault(next);
+  if (fault !== undefined) throw new Error(fault);
+  await patch(policyPath(name), JSON.stringify({ name: next }));
+}
 
 export const discardPolicy = (name: string): Promise<void> => remove(policyPath(name));

@@ -51,7 +51,7 @@ function open(send: () => unknown) {
           label="Controllers"
           missing="Choose one."
           all={['a', 'b']}
-          chosen={chosen()}
+          value={chosen()}
           onChoose={setChosen}
         />
         <ChoiceField

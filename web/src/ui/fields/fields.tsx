@@ -1,6 +1,6 @@
 // The kinds of fields.
 
-import { For, createSignal, type JSX } from 'solid-js';
+import { For, Index, createSignal, type JSX } from 'solid-js';
 import { NumberInput } from './NumberInput';
 import { numberFault, type Steps } from './number';
 import { Group, Row, type FieldProps } from './Row';
@@ -70,14 +70,15 @@ export function ChoiceField<T extends string>(
     onChoose: (value: T) => void;
   },
 ): JSX.Element {
+  // By index: an option that stays is not replaced while the user chooses.
   const list = (options: readonly Option<T>[] | undefined): JSX.Element => (
-    <For each={options}>
-      {([value, label]) => (
-        <option value={value} selected={value === props.value}>
-          {label}
+    <Index each={options}>
+      {(option) => (
+        <option value={option()[0]} selected={option()[0] === props.value}>
+          {option()[1]}
         </option>
       )}
-    </For>
+    </Index>
   );
   return (
     <Row {...props}>
@@ -151,7 +152,7 @@ export function TextField(
 export function CheckField<T extends string | number>(
   props: FieldProps & {
     all: readonly T[];
-    chosen: readonly T[];
+    value: readonly T[];
     text?: (item: T) => string;
     /** What is done with them, before each accessible name. */
     verb?: string;
@@ -164,8 +165,8 @@ export function CheckField<T extends string | number>(
   return (
     <Group
       {...props}
-      value={String(props.chosen)}
-      check={() => (props.chosen.length > 0 ? undefined : props.missing)}
+      value={String(props.value)}
+      check={() => (props.value.length > 0 ? undefined : props.missing)}
     >
       {(input) => (
         <For each={props.all}>
@@ -175,13 +176,11 @@ export function CheckField<T extends string | number>(
                 type="checkbox"
                 aria-label={props.verb && `${props.verb} ${text(item)}`}
                 aria-invalid={input['aria-invalid']}
-                checked={props.chosen.includes(item)}
+                checked={props.value.includes(item)}
                 disabled={input.disabled}
                 onChange={({ currentTarget: { checked } }) => {
                   props.onChoose(
-                    props.all.filter((one) =>
-                      one === item ? checked : props.chosen.includes(one),
-                    ),
+                    props.all.filter((one) => (one === item ? checked : props.value.includes(one))),
                   );
                 }}
               />

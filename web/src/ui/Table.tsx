@@ -1,0 +1,71 @@
+// A table whose columns are written once, for their heads and their cells.
+
+import { For, Show, type JSX } from 'solid-js';
+
+export interface Column<R> {
+  readonly name: string;
+  readonly hideName?: true;
+  readonly unit?: string;
+  readonly title?: string;
+  /** Whether its cells name the rows. */
+  readonly isHead?: true;
+  readonly cell: (row: R) => JSX.Element;
+}
+
+export function Heads(props: { columns: readonly Omit<Column<never>, 'cell'>[] }): JSX.Element {
+  return (
+    <For each={props.columns}>
+      {({ name, hideName, unit, title }) => (
+        <th scope="col" title={title}>
+          <span classList={{ 'visually-hidden': hideName }}>{name}</span>
+          <Show when={unit}>
+            <br />
+            <span class="unit">{unit}</span>
+          </Show>
+        </th>
+      )}
+    </For>
+  );
+}
+
+export function Cells<R>(props: { columns: readonly Column<R>[]; row: R }): JSX.Element {
+  return (
+    <For each={props.columns}>
+      {({ isHead, cell }) =>
+        isHead ? <th scope="row">{cell(props.row)}</th> : <td>{cell(props.row)}</td>
+      }
+    </For>
+  );
+}
+
+export function Table<R>(props: {
+  class: string;
+  /** For those who cannot see what is around it. */
+  caption?: string;
+  columns: readonly Column<R>[];
+  rows: readonly R[];
+  /** Of each row. */
+  testid?: string;
+}): JSX.Element {
+  return (
+    <table class={props.class}>
+      <Show when={props.caption}>
+        {(words) => <caption class="visually-hidden">{words()}</caption>}
+      </Show>
+      <thead>
+        <tr>
+          <Heads columns={props.columns} />
+        </tr>
+      </thead>
+      <tbody>
+        <For each={props.rows}>
+          {(row) => (
+            <tr data-testid={props.testid}>
+              <Cells columns={props.columns} row={row} />
+            </tr>
+          )}
+        </For>
+      </tbody>
+    </table>
+  );
+}
