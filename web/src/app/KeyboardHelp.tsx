@@ -1,14 +1,12 @@
 // A dialog that says what the page shows, with all keys and a switch for single-character shortcuts.
 
-import { For, createSignal, onCleanup, type JSX } from 'solid-js';
+import { For, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from './pageShortcuts';
 import { attachShortcuts, keyName } from '../ui/shortcuts';
 import { CONTROLLERS, CONTROLLER_HELP } from '../lab/parameters';
-import { recall, remember } from '../ui/storage';
+import { createChoice } from '../ui/storage';
 import type { Lab } from '../lab/slices';
 import './KeyboardHelp.css';
-
-const KEY = 'shortcuts';
 
 function WhatYouSee(): JSX.Element {
   return (
@@ -32,17 +30,14 @@ function WhatYouSee(): JSX.Element {
 
 export function KeyboardHelp(props: { lab: Lab }): JSX.Element {
   let dialog!: HTMLDialogElement;
-  const [areOn, setOn] = createSignal(recall(KEY) !== 'off');
+  const [shortcutsAre, setShortcuts] = createChoice('shortcuts', ['on', 'off']);
+  const areOn = (): boolean => shortcutsAre() === 'on';
   const open = (): void => {
     if (!dialog.open) dialog.showModal();
   };
   const shortcuts = pageShortcuts(props.lab, () => props.lab.address.view() === 'laboratory', open);
   const groups = [...new Set(shortcuts.map(({ group }) => group))];
   onCleanup(attachShortcuts(shortcuts, areOn));
-  const choose = (on: boolean): void => {
-    setOn(on);
-    remember(KEY, on ? 'on' : 'off');
-  };
   return (
     <>
       <button
@@ -97,7 +92,7 @@ export function KeyboardHelp(props: { lab: Lab }): JSX.Element {
               type="checkbox"
               checked={areOn()}
               onChange={(event) => {
-                choose(event.currentTarget.checked);
+                setShortcuts(event.currentTarget.checked ? 'on' : 'off');
               }}
             />
             These keys work everywhere on the page. The keys of the workspace always work there.

@@ -12,13 +12,13 @@ import { MarksLegend } from '../features/marks/MarksLegend';
 import { FailureCard } from '../features/failure/FailureCard';
 import { CameraView } from '../features/steer/CameraView';
 import { TipBar } from '../features/tips/TipBar';
+import { createChoice } from '../ui/storage';
 import { PlanView } from '../plan/PlanView';
 import { ScenePanel } from '../scene/ScenePanel';
 import { createLayers } from '../plan/layer';
 import type { ViewPicture } from '../plan/viewPicture';
 import { MAP_LAYERS } from './layers';
 import { createInteraction } from '../plan/interaction';
-import { storedViewMode, storeViewMode, type ViewMode } from './viewMode';
 import { WorkspaceHead } from './WorkspaceHead';
 import { WorkspaceHint } from './WorkspaceHint';
 import { insidePolygon } from '../lab/geometry';
@@ -37,7 +37,7 @@ export function WorkspacePanel(props: {
 }): JSX.Element {
   const { lab } = props;
   let stage!: HTMLDivElement;
-  const [mode, setMode] = createSignal(storedViewMode());
+  const [mode, choose] = createChoice('view', ['plan', 'scene']);
   const [disturbing, setDisturbing] = createSignal(false);
   const palette = createPalette(() => props.theme());
   const interaction = createInteraction(lab);
@@ -60,10 +60,6 @@ export function WorkspacePanel(props: {
     return interaction.focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
   });
 
-  const choose = (next: ViewMode): void => {
-    setMode(next);
-    storeViewMode(next);
-  };
   const stale = (): string | undefined => {
     const ended = lab.ended();
     if (ended !== undefined) {

@@ -57,13 +57,14 @@ it('takes no control that becomes free later', () => {
   const tab = storage();
   createKeeper('main', tab, vi.fn()).hello(OPERATOR);
   const take = vi.fn();
-  let now_ms = 0;
-  const keeper = createKeeper('main', tab, take, () => now_ms);
+  vi.useFakeTimers({ now: 0 });
+  const keeper = createKeeper('main', tab, take);
   keeper.opened();
   keeper.hello(WATCHING);
-  now_ms = 10_001;
+  vi.setSystemTime(10_001);
   keeper.hello(FREE);
   expect(take).not.toHaveBeenCalled();
+  vi.useRealTimers();
 });
 
 it('keeps the key of its seat for the next connection', () => {

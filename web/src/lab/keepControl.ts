@@ -13,12 +13,11 @@ export function createKeeper(
   session: string,
   tab: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>,
   take: () => void,
-  now_ms: () => number = Date.now,
 ) {
   let isOperator = false;
   let hasAsked = false;
   let until_ms = 0;
-  const isReturning = (): boolean => now_ms() < until_ms;
+  const isReturning = (): boolean => Date.now() < until_ms;
   return {
     /** Whether the connection is new and control that this page had before may come back, or just has. */
     isReturning,
@@ -27,7 +26,7 @@ export function createKeeper(
     opened: () => {
       isOperator = false;
       hasAsked = false;
-      until_ms = tab.getItem(KEY) === session ? now_ms() + RETAKE_MS : 0;
+      until_ms = tab.getItem(KEY) === session ? Date.now() + RETAKE_MS : 0;
     },
     hello: ({
       role,

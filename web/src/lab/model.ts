@@ -12,7 +12,6 @@ import {
   type ServerMessage,
   type StateMessage,
 } from '../net/protocol.gen';
-import type { Notice } from '../ui/NoticeBar';
 import { eventWords } from '../words/events';
 import { refusalWords } from '../words/refusals';
 import type { AnswerMessage } from './commands';
@@ -42,6 +41,13 @@ export interface LogLine {
   readonly event: EventMessage | undefined;
   /** Number of repetitions in a row. */
   readonly count: number;
+}
+
+export interface Notice {
+  readonly id: number;
+  /** A refusal, or a hint of this page. */
+  readonly tone: 'error' | 'hint';
+  readonly text: string;
 }
 
 export interface Model {

@@ -2,6 +2,7 @@
 
 import { GROUPS as GENERATED, PRESETS } from '../net/parameters.gen';
 import {
+  type Branch,
   CONTROLLER_LABELS,
   CONTROLLERS,
   type ControllerName,
@@ -13,12 +14,11 @@ import { shownName } from '../ui/name';
 export { CONTROLLER_LABELS, CONTROLLERS };
 
 /** The name of a controller, or of the program that is one. */
-export function controllerLabel(one: {
-  readonly controller: ControllerName;
-  readonly program: string | null;
-}): string {
-  return one.program === null ? CONTROLLER_LABELS[one.controller] : shownName(one.program);
-}
+export const controllerLabel = ({
+  controller,
+  program,
+}: Pick<Branch, 'controller' | 'program'>): string =>
+  program === null ? CONTROLLER_LABELS[controller] : shownName(program);
 
 const LABELS: Readonly<Partial<Record<string, string>>> = CONTROLLER_LABELS;
 
@@ -118,17 +118,15 @@ export interface Group {
 
 export const GROUPS: readonly Group[] = GENERATED;
 
-export interface PresetKind {
-  readonly label: string;
-  readonly presets: typeof PRESETS;
-}
-
 export const FIELDS: readonly Field[] = GROUPS.flatMap((group) => group.fields);
 
 /** What presets choose between, with the presets of each. */
-export const PRESET_KINDS: readonly PresetKind[] = [
-  ...new Set(PRESETS.map(({ kind }) => kind)),
-].map((label) => ({ label, presets: PRESETS.filter(({ kind }) => kind === label) }));
+export const PRESET_KINDS = [...new Set(PRESETS.map(({ kind }) => kind))].map((label) => ({
+  label,
+  presets: PRESETS.filter(({ kind }) => kind === label),
+}));
+
+export type PresetKind = (typeof PRESET_KINDS)[number];
 
 /** Index of the preset whose values these are; -1 if they are those of none. */
 export function presetOf({ presets }: PresetKind, parameters: Parameters): number {

@@ -1,5 +1,5 @@
 import { afterEach, expect, it, vi } from 'vitest';
-import { recall, remember } from './storage';
+import { createChoice, recall, remember } from './storage';
 
 afterEach(() => {
   vi.unstubAllGlobals();
@@ -44,4 +44,15 @@ it('prefers a choice that could not be stored to the stored one, until one can b
   remember('theme', 'dark');
   stored.set('ferry.theme', 'high');
   expect(recall('theme')).toBe('high');
+});
+
+it('keeps a choice, and none that no longer exists', () => {
+  const stored = allowStorage();
+  const [view, choose] = createChoice('view', ['plan', 'scene']);
+  expect(view()).toBe('plan');
+  choose('scene');
+  expect(view()).toBe('scene');
+  expect(createChoice('view', ['plan', 'scene'])[0]()).toBe('scene');
+  stored.set('ferry.view', 'toString');
+  expect(createChoice('view', ['plan', 'scene'])[0]()).toBe('plan');
 });
