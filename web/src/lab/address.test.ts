@@ -8,8 +8,13 @@ function browserAt(path: string) {
   let at = 0;
   const target = new EventTarget();
   const page = {
-    get location() {
-      return entries[at];
+    location: {
+      get href() {
+        return entries[at]?.href;
+      },
+      get pathname() {
+        return entries[at]?.pathname;
+      },
     },
     history: {
       state: null,

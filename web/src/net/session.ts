@@ -20,7 +20,7 @@ export function isBoard({ pathname }: Pick<Location, 'pathname'>): boolean {
 /** `/s/anna` is the page of the session `anna`, `/demo` of `demo`; every other address belongs to `main`. */
 export function sessionOf(page: Pick<Location, 'pathname'>): string {
   if (isDemo(page)) return DEMO;
-  return /^\/s\/([a-z0-9-]{1,32})(?:\/|$)/.exec(pathOf(page.pathname))?.[1] ?? MAIN;
+  return /^\/s\/([a-z0-9-]{1,32})(?:\/[a-z0-9/-]*)?$/.exec(pathOf(page.pathname))?.[1] ?? MAIN;
 }
 
 /** Path of a session's resource on the server. */
