@@ -63,15 +63,15 @@ function Magnet(props: {
     return error_m === undefined ? undefined : Math.round(1000 * error_m) / 1000;
   });
   // No request without a connection, so that it is sent again on the next connection.
-  const ask = <Q, A>(path: string, question: (parameters: Parameters) => Q) =>
-    createAnswer<Q, A>(path, () =>
+  const ask = <A,>(path: string, question: (parameters: Parameters) => PullQuery | ReachQuery) =>
+    createAnswer<PullQuery | ReachQuery, A>(path, () =>
       lab.connection().kind === 'live' ? question(props.parameters) : undefined,
     );
-  const pull = ask<PullQuery, PullCurve>('/api/magnetics/pull', (parameters) =>
+  const pull = ask<PullCurve>('/api/magnetics/pull', (parameters) =>
     pullQuery(parameters, direction_rad()),
   );
   const reachAt = (heights: 'all' | 'here') =>
-    ask<ReachQuery, ReachCurve>('/api/magnetics/reach', (parameters) =>
+    ask<ReachCurve>('/api/magnetics/reach', (parameters) =>
       reachQuery(parameters, direction_rad(), heights),
     );
   const [reach, here] = [reachAt('all'), reachAt('here')];
