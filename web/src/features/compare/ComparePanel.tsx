@@ -171,7 +171,6 @@ function Errors(
   const context: CurveContext = {
     palette,
     lines,
-    bands: [],
     xRange: () => [
       0,
       Math.max(1, (lastTick(props.comparison) - props.comparison.tick) * props.tick_s),
@@ -179,7 +178,6 @@ function Errors(
     yRange: (max) => [0, Math.max(1.2 * threshold_cm(), 1.1 * max)],
     xText: (value) => `${value} s`,
     yText: axisLabel,
-    shades: () => [],
     rules,
     onCursor: () => undefined,
   };

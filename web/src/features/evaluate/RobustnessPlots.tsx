@@ -60,13 +60,11 @@ function Curve(props: {
       const edge = { label: '', color: key.color, isEdge: true };
       return [edge, edge, key];
     }),
-    bands: [],
     bars: edges,
     xRange: () => [...range()],
     yRange: (max) => [...(props.measure.range ?? [0, 1.1 * max || 1])],
     xText: (value) => String(Number(value.toPrecision(6))),
     yText: (value) => fixed(value, 0),
-    shades: () => [],
     rules: () => [],
     onCursor: setPointed,
   };

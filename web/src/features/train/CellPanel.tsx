@@ -47,7 +47,6 @@ export function CellPanel(props: {
     yRange: rangeAround,
     xText: updateText,
     yText: (value) => fixed(value, 2),
-    shades: () => [],
     rules: createMemo(() =>
       props.frame
         ? [{ axis: 'x', at: props.frame.update, label: '', color: 'text', dashed: true } as const]

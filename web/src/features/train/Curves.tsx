@@ -71,7 +71,6 @@ function Plot(props: CurvesProps & { kind: Kind }): JSX.Element {
     yRange: (max, min) => (kind.range ? [...kind.range] : rangeAround(max, min)),
     xText: updateText,
     yText: (value) => fixed(value, kind.range ? 0 : 2),
-    shades: () => [],
     rules: () => [],
     onCursor: setPointed,
   };

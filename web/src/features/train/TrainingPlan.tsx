@@ -12,7 +12,7 @@ import { wallPath } from '../../plan/drawMap';
 import { createValues } from '../../plan/drawValues';
 import { contextOf } from '../../plan/sheet';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
-import type { Size } from '../../ui/size';
+import { onSize, type Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
 import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
@@ -83,13 +83,7 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   });
 
   onMount(() => {
-    const observer = new ResizeObserver(() =>
-      setSize({ width: base.clientWidth, height: base.clientHeight }),
-    );
-    observer.observe(base);
-    onCleanup(() => {
-      observer.disconnect();
-    });
+    onSize(base, setSize);
     createEffect(() => {
       const [now, px] = [drawn(), size()];
       const ctx = px && contextOf(base, px);
