@@ -81,8 +81,8 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     lab.sight() === 'all' ? undefined : fogImage(lab.obstacleMap(), palette()),
   );
   const base = createMemo<Base | undefined>(() => {
-    const mapNow = baseMap();
-    return mapNow && { map: mapNow, fog: fog() };
+    const map = baseMap();
+    return map && { ...map, fog: fog() };
   });
   const picture = createMemo<Picture | undefined>(() => {
     const baseNow = base();

@@ -36,7 +36,7 @@ export const clipped =
   };
 
 export function createBaseMap(
-  lab: Trial,
+  lab: Pick<Trial, 'scene'>,
   layers: readonly LiveLayer[],
   palette: Accessor<Palette>,
   view: Accessor<View | undefined>,

@@ -14,8 +14,7 @@ import { clampToRect, distance, type Vec2 } from '../lab/geometry';
 import { centimetres, newtons } from '../ui/format';
 
 /** What does not change with every state. */
-export interface Base {
-  readonly map: BaseMap;
+export interface Base extends BaseMap {
   /** Covers what the camera has not seen; the bead is then drawn where the tracker reports it. */
   readonly fog: HTMLCanvasElement | undefined;
 }
@@ -56,7 +55,7 @@ export function pullOf(act: Act, state: StateMessage, scene: SceneMessage): Pull
 }
 
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
-  const { view, palette, scene } = picture.base.map.ground;
+  const { view, palette, scene } = picture.base.ground;
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
   const moving = { view, palette, scene, state, history: picture.history };
   for (const draw of picture.moving) clipped(draw)(ctx, moving);
@@ -74,10 +73,10 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: nu
 /** It keeps what does not change from one picture to the next. */
 export function createPainter() {
   const grounds = new Sheet<Ground>(paintGround);
-  const bases = new Sheet<Base>((ctx, { map, fog }, size, ratio) => {
-    grounds.copy(ctx, map.ground, size, ratio);
-    paintAbove(ctx, map);
-    if (fog) clipped(drawFog(fog))(ctx, map.ground);
+  const bases = new Sheet<Base>((ctx, base, size, ratio) => {
+    grounds.copy(ctx, base.ground, size, ratio);
+    paintAbove(ctx, base);
+    if (base.fog) clipped(drawFog(base.fog))(ctx, base.ground);
   });
   return (
     canvas: HTMLCanvasElement,
@@ -90,6 +89,6 @@ export function createPainter() {
     const { base, state, cursor } = picture;
     bases.copy(ctx, base, size, ratio);
     if (state) paintState(ctx, picture, state, size.width);
-    if (cursor) drawCursor(ctx, base.map.ground.view, base.map.ground.palette, cursor);
+    if (cursor) drawCursor(ctx, base.ground.view, base.ground.palette, cursor);
   };
 }

@@ -10,7 +10,7 @@ import { fitView, type View } from '../../plan/transform';
 import { drawLocus, placesAt, sampleAt } from './drawLocus';
 import type { Figure } from './figure';
 import { LOCUS_LETTER } from './parts';
-import { nearestIndex, type Sample } from './sample';
+import type { Sample } from './sample';
 import { TERMS } from '../../lab/terms';
 import type { Vec2 } from '../../lab/geometry';
 import { shownWalls } from '../../lab/sight';
@@ -39,10 +39,7 @@ export function LocusPlot(props: {
     const now = view();
     return now && wallPath(shownWalls(lab), now);
   });
-  const marked = createMemo(() => {
-    const { sample } = props;
-    return sample && nearestIndex(sample.columns.sim_time_s, figure.pointed_s() ?? sample.at_s);
-  });
+  const marked = createMemo(() => figure.indexIn(props.sample));
   const words = (): string => {
     const [{ sample }, index] = [props, marked()];
     if (!sample || index === undefined) return '';

@@ -7,7 +7,7 @@ import { clock, fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import type { Figure } from './figure';
 import { linesOf, type Part, partRange, rulesOf } from './parts';
-import { nearestIndex, type Sample } from './sample';
+import type { Sample } from './sample';
 
 /** Number of decimals needed to distinguish multiples of `step`. */
 function decimals(step: number): number {
@@ -26,9 +26,7 @@ export function TimePlot(props: {
   const times = (): Float64Array => props.sample?.columns.sim_time_s ?? new Float64Array();
   const lines = createMemo(() => linesOf(part, props.sample));
   /** At the cursor, otherwise at the present time. */
-  const marked = createMemo(() =>
-    nearestIndex(times(), figure.pointed_s() ?? props.sample?.at_s ?? 0),
-  );
+  const marked = createMemo(() => figure.indexIn(props.sample));
   const values = createMemo(() => {
     const index = marked();
     return lines().map((values) =>

@@ -1,7 +1,7 @@
 // State shared by the parts of the figure: the window and the time under the pointer.
 
 import { createSignal, type Accessor } from 'solid-js';
-import { type Sample, takeSample, type WindowChoice } from './sample';
+import { nearestIndex, type Sample, takeSample, type WindowChoice } from './sample';
 import type { Events, Trial } from '../../lab/slices';
 
 export interface Figure {
@@ -10,6 +10,8 @@ export interface Figure {
   /** Time under a pointer, in any part. */
   readonly pointed_s: Accessor<number | undefined>;
   readonly point: (time_s: number | undefined) => void;
+  /** The sample under a pointer, otherwise the present one. */
+  readonly indexIn: (sample: Sample | undefined) => number | undefined;
   /** Takes a sample of the history. The parts draw it one after the other. */
   take(): Sample | undefined;
 }
@@ -21,5 +23,7 @@ export function createFigure(lab: Trial & Events): Figure {
     const state = lab.state();
     return state && takeSample(lab.history, choice(), state.sim_time_s, lab.marks());
   };
-  return { choice, choose, pointed_s, point, take };
+  const indexIn = (sample: Sample | undefined): number | undefined =>
+    sample && nearestIndex(sample.columns.sim_time_s, pointed_s() ?? sample.at_s);
+  return { choice, choose, pointed_s, point, indexIn, take };
 }

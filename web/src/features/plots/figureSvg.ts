@@ -4,7 +4,7 @@ import { fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
 import { fitView, pxFromWorld } from '../../plan/transform';
-import { linesOf, LOCUS_LETTER, type Part, partRange, PARTS, rulesOf } from './parts';
+import { type Line, linesOf, LOCUS_LETTER, type Part, partRange, PARTS, rulesOf } from './parts';
 import type { Sample } from './sample';
 import type { Vec2 } from '../../lab/geometry';
 
@@ -29,6 +29,10 @@ const BOX = {
   height: CELL.height - INSET.top - INSET.bottom,
 };
 const TICKS = 4;
+const TRAILS = [
+  { label: 'tool', color: 'tool' },
+  { label: 'bead', color: 'bead' },
+] as const;
 const CROSS_PX = 4;
 
 /** About `count` round numbers from `low` to `high`. */
@@ -65,14 +69,13 @@ function line(a: Vec2, b: Vec2, color: string, more = ''): string {
 function caption(
   letter: string,
   title: string,
-  keys: readonly { label: string; color: string }[],
+  keys: readonly Pick<Line, 'label' | 'color'>[],
   palette: Palette,
 ): string {
   const marks = keys.map(({ label, color }, index) => {
     const x = CELL.width - INSET.right - 46 * (keys.length - index);
-    return (
-      line([x, 12], [x + 12, 12], color, 'stroke-width="3"') + text([x + 16, 16], label, color)
-    );
+    const mark = line([x, 12], [x + 12, 12], palette[color], 'stroke-width="3"');
+    return mark + text([x + 16, 16], label, palette[color]);
   });
   return (
     text([INSET.left, 16], `(${letter}) ${title}`, palette.text, 'font-weight="600"') +
@@ -103,27 +106,17 @@ function timePart(part: Part, facts: FigureFacts): string {
       `<rect x="${n(x(from_s))}" y="${INSET.top}" width="${n(width)}" height="${n(BOX.height)}" fill="${palette['mode-1']}" fill-opacity="0.16"/>`,
     );
   }
-  for (const tick of roundTicks(low, high, TICKS)) {
-    out.push(line([INSET.left, y(tick)], [right, y(tick)], palette.grid));
-    out.push(
-      text(
-        [INSET.left - 5, y(tick) + 4],
-        fixed(tick, part.digits),
-        palette.muted,
-        'text-anchor="end"',
-      ),
-    );
+  const tick = (from: Vec2, to: Vec2, at: Vec2, number: string, anchor: string): void => {
+    out.push(line(from, to, palette.grid));
+    out.push(text(at, number, palette.muted, `text-anchor="${anchor}"`));
+  };
+  for (const value of roundTicks(low, high, TICKS)) {
+    const [at, number] = [y(value), fixed(value, part.digits)];
+    tick([INSET.left, at], [right, at], [INSET.left - 5, at + 4], number, 'end');
   }
-  for (const tick of roundTicks(sample.from_s, sample.to_s, TICKS)) {
-    out.push(line([x(tick), INSET.top], [x(tick), bottom], palette.grid));
-    out.push(
-      text(
-        [x(tick), bottom + 14],
-        `${Number(tick.toFixed(3))} s`,
-        palette.muted,
-        'text-anchor="middle"',
-      ),
-    );
+  for (const time_s of roundTicks(sample.from_s, sample.to_s, TICKS)) {
+    const [at, number] = [x(time_s), `${Number(time_s.toFixed(3))} s`];
+    tick([at, INSET.top], [at, bottom], [at, bottom + 14], number, 'middle');
   }
   for (const rule of rulesOf(part, sample, threshold_m)) {
     const color = palette[rule.color];
@@ -143,8 +136,7 @@ function timePart(part: Part, facts: FigureFacts): string {
     ]);
     out.push(polyline(points, palette[color]));
   });
-  const keys = part.lines.map(({ label, color }) => ({ label, color: palette[color] }));
-  return caption(part.letter, `${part.title} in ${part.unit}`, keys, palette) + out.join('');
+  return caption(part.letter, `${part.title} in ${part.unit}`, part.lines, palette) + out.join('');
 }
 
 function locusPart(facts: FigureFacts): string {
@@ -185,11 +177,7 @@ function locusPart(facts: FigureFacts): string {
       );
     }
   }
-  const keys = [
-    { label: 'tool', color: palette.tool },
-    { label: 'bead', color: palette.bead },
-  ];
-  return caption(LOCUS_LETTER, 'Locus', keys, palette) + out.join('');
+  return caption(LOCUS_LETTER, 'Locus', TRAILS, palette) + out.join('');
 }
 
 /** In the paper's order, three parts per row. */

@@ -13,7 +13,7 @@ import { createValues } from '../../plan/drawValues';
 import { ARROWS } from '../../plan/gesture';
 import { contextOf } from '../../plan/sheet';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
-import type { Size } from '../../ui/size';
+import { onSize, type Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
 import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
@@ -77,13 +77,7 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   });
 
   onMount(() => {
-    const observer = new ResizeObserver(() =>
-      setSize({ width: base.clientWidth, height: base.clientHeight }),
-    );
-    observer.observe(base);
-    onCleanup(() => {
-      observer.disconnect();
-    });
+    onSize(base, setSize);
     createEffect(() => {
       const [now, px] = [drawn(), size()];
       const ctx = px && contextOf(base, px);

@@ -1,0 +1,87 @@
+import { createRoot, createSignal } from 'solid-js';
+import { expect, test, vi } from 'vitest';
+import { sceneOf } from '../lab/testing';
+import type { Palette } from '../ui/palette';
+import { createBaseMap } from './baseMap';
+import { type BasePicture, type Draw, drawn, type LiveLayer } from './layer';
+import { Sheet } from './sheet';
+
+const VIEW = { pxPerM: 1000, originX: 0, originY: 0 };
+const noDraw: Draw<BasePicture> = () => undefined;
+
+function open() {
+  vi.stubGlobal(
+    'Path2D',
+    class {
+      moveTo = noDraw;
+      lineTo = noDraw;
+      closePath = noDraw;
+    },
+  );
+  const [scene, setScene] = createSignal(sceneOf('posts'));
+  const [palette, setPalette] = createSignal({} as Palette);
+  const [view, setView] = createSignal(VIEW);
+  const [below, setBelow] = createSignal(1);
+  const [above, setAbove] = createSignal(1);
+  const [isShown, setShown] = createSignal(true);
+  const layer: LiveLayer = {
+    id: 'one',
+    label: 'One',
+    swatch: ['tool'],
+    group: 'Motion',
+    create: () => ({}),
+    isShown,
+    belowWalls: drawn(below, noDraw),
+    aboveWalls: drawn(above, noDraw),
+  };
+  const base = createRoot(() => createBaseMap({ scene }, [layer], palette, view));
+  return { base, setScene, setPalette, setView, setBelow, setAbove, setShown };
+}
+
+test('the base map changes with map, theme, size and its layers, and with nothing else', () => {
+  const { base, setScene, setPalette, setView, setBelow, setAbove, setShown } = open();
+  let before = base();
+  const changes = (): { map: boolean; ground: boolean } => {
+    const now = base();
+    const changed = { map: now !== before, ground: now?.ground !== before?.ground };
+    before = now;
+    return changed;
+  };
+  const both = { map: true, ground: true };
+  expect(changes()).toEqual({ map: false, ground: false });
+  setScene(sceneOf('colon'));
+  expect(changes()).toEqual(both);
+  setPalette({} as Palette);
+  expect(changes()).toEqual(both);
+  setView({ ...VIEW, pxPerM: 2000 });
+  expect(changes()).toEqual(both);
+  setBelow(2);
+  expect(changes()).toEqual(both);
+  // Floor and walls stay.
+  setAbove(2);
+  expect(changes()).toEqual({ map: true, ground: false });
+  setShown(false);
+  expect(changes()).toEqual(both);
+  setAbove(3);
+  setBelow(3);
+  expect(changes()).toEqual({ map: false, ground: false });
+});
+
+test('a sheet is painted again only for another input or another ratio', () => {
+  const ctx = new Proxy({}, { get: () => () => undefined }) as CanvasRenderingContext2D;
+  vi.stubGlobal('document', { createElement: () => ({ getContext: () => ctx }) });
+  const paint = vi.fn();
+  const sheet = new Sheet<object>(paint);
+  const size = { width: 4, height: 4 };
+  const one = {};
+  for (const [input, ratio] of [
+    [one, 1],
+    [one, 1],
+    [{}, 1],
+    [one, 2],
+    [one, 2],
+  ] as const) {
+    sheet.copy(ctx, input, size, ratio);
+  }
+  expect(paint).toHaveBeenCalledTimes(3);
+});
