@@ -13,17 +13,13 @@ import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
 import type { DrawProps } from '../features/draw/DrawView';
-import { LazyDrawView } from '../features/draw/LazyDrawView';
 import { fillIn } from '../features/evaluate/draft';
-import { LazyEvaluateView } from '../features/evaluate/LazyEvaluateView';
 import { Header } from './Header';
 import { MAP_LAYERS } from './layers';
 import { LiveRegion } from './LiveRegion';
 import { LowerPanel } from './LowerPanel';
-import { LazyRecordingsView } from '../features/recordings/LazyRecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
 import { createMapOpener } from '../features/maps/opener';
-import { LazyTrainView } from '../features/train/LazyTrainView';
 import { showMap } from '../features/train/state';
 import { PlaybackBar } from '../features/playback/PlaybackBar';
 import { KeptRuns } from '../features/runs/KeptRuns';
@@ -34,11 +30,17 @@ import { TwinFacts } from '../features/twin/TwinFacts';
 import { WhyCard } from '../features/why/WhyCard';
 import { ControllerFacts } from './ControllerFacts';
 import { onFileDrop } from '../ui/fileDrop';
+import { lazyView } from '../ui/lazyPart';
 import { createPalette } from '../ui/palette';
 import { createTheme } from '../ui/theme';
 import type { ViewPicture } from '../plan/viewPicture';
 import type { View } from './views';
 import { WorkspacePanel } from './WorkspacePanel';
+
+const DrawView = lazyView(() => import('../features/draw/DrawView'));
+const TrainView = lazyView(() => import('../features/train/TrainView'));
+const EvaluateView = lazyView(() => import('../features/evaluate/EvaluateView'));
+const RecordingsView = lazyView(() => import('../features/recordings/RecordingsView'));
 
 export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
@@ -50,10 +52,13 @@ export function Page(): JSX.Element {
   const capture = createCapture(lab, picture, createPalette(theme));
   const opener = createMapOpener(lab);
   const drawing: DrawProps['kept'] = {};
+  const showLaboratory = (): void => {
+    setView('laboratory');
+  };
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
-      setView('laboratory');
+      showLaboratory();
       void take(file);
     });
   };
@@ -105,22 +110,18 @@ export function Page(): JSX.Element {
           </main>
         </Match>
         <Match when={view() === 'draw'}>
-          <LazyDrawView
+          <DrawView
             kept={drawing}
             lab={lab}
             open={(file) => opener.open(file)}
-            onLaboratory={() => {
-              setView('laboratory');
-            }}
+            onLaboratory={showLaboratory}
           />
         </Match>
         <Match when={view() === 'train'}>
-          <LazyTrainView
+          <TrainView
             lab={lab}
             theme={theme}
-            onLaboratory={() => {
-              setView('laboratory');
-            }}
+            onLaboratory={showLaboratory}
             onEvaluate={(policy, map) => {
               fillIn(policy, map);
               setView('evaluate');
@@ -128,16 +129,10 @@ export function Page(): JSX.Element {
           />
         </Match>
         <Match when={view() === 'recordings'}>
-          <LazyRecordingsView theme={theme} session={lab.session} tick={lab.state()?.tick} />
+          <RecordingsView theme={theme} session={lab.session} tick={lab.state()?.tick} />
         </Match>
         <Match when={view() === 'evaluate'}>
-          <LazyEvaluateView
-            lab={lab}
-            theme={theme}
-            onLaboratory={() => {
-              setView('laboratory');
-            }}
-          />
+          <EvaluateView lab={lab} theme={theme} onLaboratory={showLaboratory} />
         </Match>
       </Switch>
     </>

@@ -8,7 +8,7 @@ import './challenge.css';
 
 export type ChallengeLab = Session & Trial & Contested & Notices;
 
-export function ChallengePanel(props: { lab: ChallengeLab }): JSX.Element {
+export default function ChallengePanel(props: { lab: ChallengeLab }): JSX.Element {
   const { lab } = props;
   return (
     <div class="challenge">

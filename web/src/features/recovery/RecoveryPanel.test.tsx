@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { page } from 'vitest/browser';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
 import type { RecoveryQuery, RecoveryReport } from '../../net/protocol.gen';
-import { RecoveryPanel } from './RecoveryPanel';
+import RecoveryPanel from './RecoveryPanel';
 
 it('sends what is chosen, and shows why the server refuses it', async () => {
   let query: RecoveryQuery | undefined;
