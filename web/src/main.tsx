@@ -26,10 +26,8 @@ const root = document.getElementById('app');
 if (!root) throw new Error('index.html has no #app');
 keepFocus(document);
 /** Loaded when they are opened: most browsers never do. */
-const DemoPage = lazyView<object>(async () => (await import('./app/DemoPage')).DemoPage);
-const BoardPage = lazyView<object>(
-  async () => (await import('./features/board/BoardPage')).BoardPage,
-);
+const DemoPage = lazyView(() => import('./app/DemoPage'));
+const BoardPage = lazyView(() => import('./features/board/BoardPage'));
 /** What older browsers lack that the page needs; without it they would show a part of the page. */
 const isOld = !('toSorted' in Array.prototype) || !CSS.supports('selector(:has(*))');
 // The message for older browsers is in index.html.

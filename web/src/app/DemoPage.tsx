@@ -15,7 +15,7 @@ const HELP_ID = 'demo-help';
 /** Visitors see the bead for the first time, and it moves. */
 const GRAB_PX = 56;
 
-export function DemoPage(): JSX.Element {
+export default function DemoPage(): JSX.Element {
   const { theme } = createTheme();
   const lab = createLab(window, MAP_LAYERS);
   const palette = createPalette(theme);

@@ -14,17 +14,13 @@ import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
 import type { DrawProps } from '../features/draw/DrawView';
-import { LazyDrawView } from '../features/draw/LazyDrawView';
 import { fillIn } from '../features/evaluate/draft';
-import { LazyEvaluateView } from '../features/evaluate/LazyEvaluateView';
 import { Header } from './Header';
 import { MAP_LAYERS } from './layers';
 import { LiveRegion } from './LiveRegion';
 import { LowerPanel } from './LowerPanel';
-import { LazyRecordingsView } from '../features/recordings/LazyRecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
 import { createMapOpener } from '../features/maps/opener';
-import { LazyTrainView } from '../features/train/LazyTrainView';
 import { showMap } from '../features/train/state';
 import { PlaybackBar } from '../features/playback/PlaybackBar';
 import { KeptRuns } from '../features/runs/KeptRuns';
@@ -35,10 +31,16 @@ import { TwinFacts } from '../features/twin/TwinFacts';
 import { WhyCard } from '../features/why/WhyCard';
 import { ControllerFacts } from './ControllerFacts';
 import { onFileDrop } from '../ui/fileDrop';
+import { lazyView } from '../ui/lazyPart';
 import { createPalette } from '../ui/palette';
 import { createTheme } from '../ui/theme';
 import type { ViewPicture } from '../plan/viewPicture';
 import { WorkspacePanel } from './WorkspacePanel';
+
+const DrawView = lazyView(() => import('../features/draw/DrawView'));
+const TrainView = lazyView(() => import('../features/train/TrainView'));
+const EvaluateView = lazyView(() => import('../features/evaluate/EvaluateView'));
+const RecordingsView = lazyView(() => import('../features/recordings/RecordingsView'));
 
 export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
@@ -55,10 +57,13 @@ export function Page(): JSX.Element {
     if (address.lesson() !== undefined) lab.openTab('lessons');
   });
   const drawing: DrawProps['kept'] = {};
+  const showLaboratory = (): void => {
+    address.show('laboratory');
+  };
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
-      address.show('laboratory');
+      showLaboratory();
       void take(file);
     });
   };
@@ -110,22 +115,18 @@ export function Page(): JSX.Element {
           </main>
         </Match>
         <Match when={view() === 'draw'}>
-          <LazyDrawView
+          <DrawView
             kept={drawing}
             lab={lab}
             open={(file) => opener.open(file)}
-            onLaboratory={() => {
-              address.show('laboratory');
-            }}
+            onLaboratory={showLaboratory}
           />
         </Match>
         <Match when={view() === 'train'}>
-          <LazyTrainView
+          <TrainView
             lab={lab}
             theme={theme}
-            onLaboratory={() => {
-              address.show('laboratory');
-            }}
+            onLaboratory={showLaboratory}
             onEvaluate={(policy, map) => {
               fillIn(policy, map);
               address.show('evaluate');
@@ -133,16 +134,10 @@ export function Page(): JSX.Element {
           />
         </Match>
         <Match when={view() === 'recordings'}>
-          <LazyRecordingsView theme={theme} session={lab.session} tick={lab.state()?.tick} />
+          <RecordingsView theme={theme} session={lab.session} tick={lab.state()?.tick} />
         </Match>
         <Match when={view() === 'evaluate'}>
-          <LazyEvaluateView
-            lab={lab}
-            theme={theme}
-            onLaboratory={() => {
-              address.show('laboratory');
-            }}
-          />
+          <EvaluateView lab={lab} theme={theme} onLaboratory={showLaboratory} />
         </Match>
       </Switch>
     </>

@@ -1,7 +1,7 @@
 // A panel under a tab.
 
 import type { Component } from 'solid-js';
-import { lazyPart } from '../ui/lazyPart';
+import { lazyPart, type Load } from '../ui/lazyPart';
 import type { TabHead } from '../ui/Tabs';
 import type { Theme } from '../ui/theme';
 import type { Lab } from './slices';
@@ -19,11 +19,7 @@ export interface TabPanel extends TabHead {
 }
 
 /** A tab whose code is loaded when it is opened for the first time. */
-export const lazyTab = (
-  id: string,
-  title: string,
-  load: () => Promise<Component<PanelProps>>,
-): TabPanel => ({
+export const lazyTab = (id: string, title: string, load: Load<PanelProps>): TabPanel => ({
   id,
   title,
   panel: lazyPart(load, 'tab', (missing) => missing ?? <p class="placeholder">Loading…</p>),

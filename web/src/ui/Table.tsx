@@ -41,17 +41,14 @@ export function Cells<R>(props: { columns: readonly Column<R>[]; row: R }): JSX.
 export function Table<R>(props: {
   class: string;
   /** For those who cannot see what is around it. */
-  caption?: string;
+  label?: string;
   columns: readonly Column<R>[];
   rows: readonly R[];
   /** Of each row. */
   testid?: string;
 }): JSX.Element {
   return (
-    <table class={props.class}>
-      <Show when={props.caption}>
-        {(words) => <caption class="visually-hidden">{words()}</caption>}
-      </Show>
+    <table class={props.class} aria-label={props.label}>
       <thead>
         <tr>
           <Heads columns={props.columns} />

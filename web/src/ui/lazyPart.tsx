@@ -2,9 +2,12 @@
 
 import { Suspense, lazy, type Component, type JSX } from 'solid-js';
 
+/** Imports a file whose default export is the part. */
+export type Load<P extends object> = () => Promise<{ default: Component<P> }>;
+
 /** `frame` is shown until it is loaded, or around the words that it is missing: a newer version of the server may have other files. */
 export function lazyPart<P extends object>(
-  load: () => Promise<Component<P>>,
+  load: Load<P>,
   kind: string,
   frame: (missing?: JSX.Element) => JSX.Element,
 ): Component<P> {
@@ -14,7 +17,7 @@ export function lazyPart<P extends object>(
         This {kind} could not be loaded. Reload the page.
       </p>,
     );
-  const Part = lazy(async () => ({ default: await load().catch(() => Missing as Component<P>) }));
+  const Part = lazy(() => load().catch(() => ({ default: Missing })));
   return (props) => (
     <Suspense fallback={frame()}>
       <Part {...props} />
@@ -23,5 +26,5 @@ export function lazyPart<P extends object>(
 }
 
 /** A view of the page. */
-export const lazyView = <P extends object>(load: () => Promise<Component<P>>): Component<P> =>
+export const lazyView = <P extends object>(load: Load<P>): Component<P> =>
   lazyPart(load, 'view', (missing) => <main class="view">{missing}</main>);

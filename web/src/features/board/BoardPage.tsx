@@ -29,7 +29,7 @@ import { addressOf } from '../../net/base';
 
 const LIST_MS = 15_000;
 
-export function BoardPage(): JSX.Element {
+export default function BoardPage(): JSX.Element {
   createTheme();
   const list = createPoll<Challenges>('/api/challenges', LIST_MS);
   const all = (): readonly ChallengeSummary[] => list.data()?.challenges ?? [];

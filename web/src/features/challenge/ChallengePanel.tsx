@@ -5,7 +5,7 @@ import { ChallengeList } from './ChallengeList';
 import { PlayView, type ChallengeLab } from './PlayView';
 import './challenge.css';
 
-export function ChallengePanel(props: { lab: ChallengeLab }): JSX.Element {
+export default function ChallengePanel(props: { lab: ChallengeLab }): JSX.Element {
   const { lab } = props;
   return (
     <div class="challenge">

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { page } from 'vitest/browser';
 import { fakeLab, show } from '../../lab/testingLab';
-import { ComparePanel } from './ComparePanel';
+import ComparePanel from './ComparePanel';
 
 it('compares the chosen controllers, and shows why the server refuses it', async () => {
   const { lab, server } = fakeLab();

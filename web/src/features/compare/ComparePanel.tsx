@@ -73,7 +73,7 @@ function Results(props: { comparison: ComparisonMessage; tick_s: number }): JSX.
   return (
     <Table
       class="compare-table number"
-      caption="Results of each controller from this moment"
+      label="Results of each controller from this moment"
       columns={columns}
       rows={props.comparison.branches}
     />
@@ -188,7 +188,7 @@ function Errors(
   );
 }
 
-export function ComparePanel(
+export default function ComparePanel(
   props: PanelProps<Session & Trial & Events & Notices & Compared>,
 ): JSX.Element {
   const { lab } = props;

@@ -25,7 +25,7 @@ export interface DrawProps {
   readonly onLaboratory: () => void;
 }
 
-export function DrawView(props: DrawProps): JSX.Element {
+export default function DrawView(props: DrawProps): JSX.Element {
   const editor = (props.kept.editor ??= createEditor());
   const svg = createMemo(() => svgText(editor.editing().drawing));
   const isLive = createMemo(() => props.lab.connection().kind === 'live');

@@ -38,13 +38,11 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
   );
 }
 
-export interface EvaluateProps {
-  readonly lab: Session & Trial;
-  readonly theme: () => Theme;
-  readonly onLaboratory: () => void;
-}
-
-export function EvaluateView(props: EvaluateProps): JSX.Element {
+export default function EvaluateView(props: {
+  lab: Session & Trial;
+  theme: () => Theme;
+  onLaboratory: () => void;
+}): JSX.Element {
   const all = (): readonly EvaluationSummary[] => props.lab.catalog.evaluations() ?? [];
   /** The chosen evaluation, otherwise the newest. */
   const shown = createMemo(() => all().find(({ id }) => id === chosen()) ?? all().at(-1));

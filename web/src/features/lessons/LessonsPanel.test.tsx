@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { eventAt } from '../../lab/testingFacts';
 import { page } from 'vitest/browser';
 import { fakeLab, show } from '../../lab/testingLab';
-import { LessonsPanel } from './LessonsPanel';
+import LessonsPanel from './LessonsPanel';
 
 const button = (name: string | RegExp) => page.getByRole('button', { name });
 

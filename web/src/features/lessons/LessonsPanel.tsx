@@ -68,7 +68,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
   );
 }
 
-export function LessonsPanel(props: { lab: LessonsLab }): JSX.Element {
+export default function LessonsPanel(props: { lab: LessonsLab }): JSX.Element {
   const { lab } = props;
   const store = lessonsOf(lab);
   return (

@@ -203,7 +203,7 @@ function Magnet(props: {
   );
 }
 
-export function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
+export default function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
   return (
     <Show
       when={props.lab.edits.shown()}

@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { page, userEvent } from 'vitest/browser';
 import { type Answers, fakeServer, refusal, show } from '../../lab/testingLab';
 import type { RecordingFile, RecordingTitle } from '../../net/protocol.gen';
-import { RecordingsView } from './RecordingsView';
+import RecordingsView from './RecordingsView';
 
 const recordingOf = (session: string, change: Partial<RecordingFile> = {}): RecordingFile => ({
   id: `1-${session}`,

@@ -7,20 +7,19 @@ import { createRecordings } from './recordings';
 import { Row } from './Row';
 import { createAttempt } from '../../ui/attempt';
 import { ForKeyed } from '../../ui/ForKeyed';
+import { Panel } from '../../ui/Panel';
 import { SmallButton } from '../../ui/SmallButton';
 import type { Theme } from '../../ui/theme';
 import { ViewerFrame } from './ViewerFrame';
 import './recordings.css';
 
-export interface RecordingsProps {
-  readonly theme: Accessor<Theme>;
+export default function RecordingsView(props: {
+  theme: Accessor<Theme>;
   /** The session of the page. */
-  readonly session: string;
+  session: string;
   /** Its tick: it is recorded while it moves. */
-  readonly tick: number | undefined;
-}
-
-export function RecordingsView(props: RecordingsProps): JSX.Element {
+  tick: number | undefined;
+}): JSX.Element {
   const { list, error, refresh, rename, discard } = createRecordings(() => props.tick);
   const [open, setOpen] = createSignal<RecordingFile>();
   const { attempt, refusal } = createAttempt();
@@ -47,13 +46,15 @@ export function RecordingsView(props: RecordingsProps): JSX.Element {
   const newest = (id: string): RecordingFile | undefined => list()?.find((file) => file.id === id);
   return (
     <main class="view recordings" data-open={open() ? '' : undefined}>
-      <section class="panel recordings-list" aria-labelledby="recordings-title">
-        <div class="panel-head">
-          <h2 id="recordings-title">Recordings</h2>
+      <Panel
+        class="recordings-list"
+        name="Recordings"
+        head={
           <SmallButton ref={refresher} onClick={refresh}>
             Refresh
           </SmallButton>
-        </div>
+        }
+      >
         <Show when={refusal() ?? error()}>
           {(text) => (
             <p class="recordings-error" role="alert">
@@ -102,7 +103,7 @@ export function RecordingsView(props: RecordingsProps): JSX.Element {
             </table>
           </Show>
         </div>
-      </section>
+      </Panel>
       <Show when={open()} keyed>
         {(file) => (
           <ViewerFrame

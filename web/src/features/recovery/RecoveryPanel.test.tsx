@@ -1,8 +1,38 @@
 import { expect, it } from 'vitest';
-import { page } from 'vitest/browser';
+import { page, userEvent } from 'vitest/browser';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
-import type { RecoveryQuery, RecoveryReport } from '../../net/protocol.gen';
-import { RecoveryPanel } from './RecoveryPanel';
+import type {
+  ControllerName,
+  RecoveryCell,
+  RecoveryQuery,
+  RecoveryReport,
+} from '../../net/protocol.gen';
+import RecoveryPanel from './RecoveryPanel';
+
+const reportOf = (change: Partial<RecoveryReport> = {}): RecoveryReport => ({
+  id: 'recovery-1',
+  stage: 'done',
+  message: null,
+  done: 1,
+  planned: 1,
+  session: 'main',
+  trial: 1,
+  map: 'colon',
+  kind: 'place',
+  controllers: ['rl'],
+  names: ['rl'],
+  grid: 4,
+  repeats: 1,
+  seed: 1,
+  within_s: 60,
+  tick: 250,
+  bead_m: [0, -0.3],
+  goal_m: null,
+  cells: [],
+  basins: [],
+  differences: [],
+  ...change,
+});
 
 it('sends what is chosen, and shows why the server refuses it', async () => {
   let query: RecoveryQuery | undefined;
@@ -45,29 +75,7 @@ it('sends what is chosen, and shows why the server refuses it', async () => {
 });
 
 it('shows a recovery map of another map only when it is chosen, and says so', async () => {
-  const report: RecoveryReport = {
-    id: 'recovery-1',
-    stage: 'done',
-    message: null,
-    done: 1,
-    planned: 1,
-    session: 'main',
-    trial: 1,
-    map: 'colon',
-    kind: 'place',
-    controllers: ['rl'],
-    names: ['rl'],
-    grid: 4,
-    repeats: 1,
-    seed: 1,
-    within_s: 60,
-    tick: 250,
-    bead_m: [0, -0.3],
-    goal_m: null,
-    cells: [],
-    basins: [],
-    differences: [],
-  };
+  const report = reportOf();
   const { lab, server } = fakeLab({
     'GET /api/recoveries/recovery-1': () => report,
   });
@@ -85,4 +93,38 @@ it('shows a recovery map of another map only when it is chosen, and says so', as
   await expect.element(shown).toHaveTextContent(/^place on colon from/);
   server.scene({ map: 'posts' });
   await expect.element(shown).not.toBeInTheDocument();
+});
+
+it('shows each controller or the difference of two, and goes from cell to cell by keys', async () => {
+  const cell = (number: number, controller: ControllerName, delivered: number): RecoveryCell => ({
+    ...{ cell: number, controller, delivered, late: 0, lost: 2 - delivered, repeats: 2 },
+    ...{ x_m: 0.02 * number, y_m: -0.35, size_m: 0.02, direction_rad: null, strength: null },
+    ...{ at_s: null, delivered_wilson95: [0, 1], time_s_median: null, why: null },
+  });
+  const report = reportOf({
+    map: 'posts',
+    controllers: ['rl', 'errt'],
+    names: ['rl', 'errt'],
+    cells: [cell(0, 'rl', 2), cell(1, 'rl', 0), cell(0, 'errt', 0), cell(1, 'errt', 2)],
+  });
+  const { lab, server } = fakeLab({
+    'GET /api/recoveries/recovery-1': () => report,
+    'GET /api/recoveries/recovery-1/cells/1': () => ({ trials: [] }),
+  });
+  server.lists({ recoveries: [report] });
+  server.scene({ map: 'posts' });
+  show(() => (
+    <RecoveryPanel lab={lab} theme={() => 'dark'} tools={document.createElement('div')} />
+  ));
+  const figures = page.getByRole('application');
+  await expect.poll(() => figures.all().length).toBe(2);
+  const errt = page.getByRole('application', { name: /^ERRT: cells/ });
+  (errt.element() as unknown as SVGElement).focus();
+  await userEvent.keyboard('{ArrowRight}{ArrowRight}');
+  await expect.element(page.getByTestId('recovery-cell')).toHaveTextContent('2 delivered');
+  await page.getByLabelText('Show').selectOptions('RL minus ERRT');
+  await expect.poll(() => figures.all().length).toBe(1);
+  expect(
+    [...document.querySelectorAll('.cell')].map((one) => one.getAttribute('data-kind')),
+  ).toEqual(['first', 'second']);
 });

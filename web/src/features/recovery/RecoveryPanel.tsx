@@ -162,7 +162,9 @@ function Earlier(props: {
   );
 }
 
-export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHand>): JSX.Element {
+export default function RecoveryPanel(
+  props: PanelProps<Session & Trial & Notices & ByHand>,
+): JSX.Element {
   const { lab } = props;
   const map = createMemo(() => lab.scene()?.map);
   const shown = createShown(lab.catalog, map);

@@ -4,7 +4,7 @@ import { page, userEvent } from 'vitest/browser';
 import { trainingOf } from '../../lab/testing';
 import { type Answers, fakeLab, refusal, show } from '../../lab/testingLab';
 import { CELLS, frameOf, pointOf } from './testing';
-import { TrainView } from './TrainView';
+import TrainView from './TrainView';
 
 const button = (name: string | RegExp) => page.getByRole('button', { name });
 const name = page.getByLabelText('Policy name');

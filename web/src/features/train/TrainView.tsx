@@ -30,14 +30,6 @@ import { WatchPane } from './WatchPane';
 import './train.css';
 import './watch.css';
 
-export interface TrainProps {
-  readonly lab: Session & Trial & Notices;
-  readonly theme: () => Theme;
-  readonly onLaboratory: () => void;
-  /** Opens the view Evaluate with a policy, by its reference, and a map. */
-  readonly onEvaluate: (policy: string, map: string) => void;
-}
-
 /** The new training, the first of the list, and its value map. */
 function bringIntoView(view: HTMLElement, list: HTMLElement): void {
   // Where the view scrolls itself, its top has both; where the page scrolls, the form is above them.
@@ -45,7 +37,13 @@ function bringIntoView(view: HTMLElement, list: HTMLElement): void {
   else list.scrollIntoView({ block: 'start' });
 }
 
-export function TrainView(props: TrainProps): JSX.Element {
+export default function TrainView(props: {
+  lab: Session & Trial & Notices;
+  theme: () => Theme;
+  onLaboratory: () => void;
+  /** Opens the view Evaluate with a policy, by its reference, and a map. */
+  onEvaluate: (policy: string, map: string) => void;
+}): JSX.Element {
   const { lab } = props;
   const palette = createPalette(() => props.theme());
   const all = (): readonly TrainingSummary[] => lab.catalog.trainings() ?? [];

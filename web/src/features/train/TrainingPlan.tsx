@@ -16,7 +16,7 @@ import { fitView, type View, worldFromPx } from '../../plan/transform';
 import { onSize, type Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
-import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
+import { drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
 import { around, cellAt, grown, valueCells } from './grid';
 
 const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
@@ -66,22 +66,17 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
     const { cells, frame, palette, range } = props;
     return cells && frame && createValues(valueCells(cells, frame), palette, range);
   });
-  const drawn = createMemo<Base | undefined>(() => {
-    const [now, rect, outlines] = [view(), workspace(), walls()];
-    if (!now || !rect || !outlines) return undefined;
-    const { palette, layers, cells, frame, chosen } = props;
-    return {
-      ...{ view: now, palette, workspace: rect, walls: outlines, layers },
-      ...{ cells, frame, chosen, values: values() },
-    };
-  });
-
   onMount(() => {
     onSize(base, setSize);
     createEffect(() => {
-      const [now, px] = [drawn(), size()];
+      const [now, px, rect, outlines] = [view(), size(), workspace(), walls()];
+      const { palette, layers, cells, frame, chosen } = props;
       const ctx = px && contextOf(base, px);
-      if (ctx && now) drawBase(ctx, now);
+      if (!ctx || !now || !rect || !outlines) return;
+      drawBase(ctx, {
+        ...{ view: now, palette, workspace: rect, walls: outlines, layers },
+        ...{ cells, frame, chosen, values: values() },
+      });
     });
     createEffect(() => {
       const [now, px] = [view(), size()];

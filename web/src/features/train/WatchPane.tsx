@@ -67,13 +67,9 @@ export function WatchPane(props: {
     return cells && place && cellAt(cells, place);
   });
   // The one before stays until the next one has arrived.
-  const frame = createMemo<TrainingFrame | undefined>(
-    (before) => maps.frames().get(index()) ?? before,
-  );
-  const inOrder = createMemo(() =>
-    [...maps.frames()].sort(([a], [b]) => a - b).map(([, frame]) => frame),
-  );
-  const isLoaded = (): boolean => maps.frames().has(index());
+  const frame = createMemo<TrainingFrame | undefined>((before) => maps.frames()[index()] ?? before);
+  const read = createMemo(() => maps.frames().filter((one) => one !== undefined));
+  const isLoaded = (): boolean => maps.frames()[index()] !== undefined;
   createEffect(() => {
     if (!isPlaying()) return;
     const timer = setInterval(() => {
@@ -190,7 +186,7 @@ export function WatchPane(props: {
               cells={cells()}
               cell={cell() ?? 0}
               frame={frame()}
-              frames={inOrder()}
+              frames={read()}
               count={count()}
               total={props.summary.updates_total}
               palette={props.palette}

@@ -24,7 +24,7 @@ export interface Layers {
   readonly episodes: boolean;
 }
 
-export interface Base {
+interface Base {
   readonly view: View;
   readonly palette: Palette;
   readonly workspace: Rect;

@@ -65,7 +65,7 @@ describe('the value maps', () => {
     await answer(frameOf(700));
     await answer(frameOf(0));
     expect(asked).toEqual(['cells', '4', '7', '0']);
-    expect([...maps.frames().keys()].sort()).toEqual([0, 4, 7]);
+    expect(maps.frames().flatMap((frame, index) => (frame ? [index] : []))).toEqual([0, 4, 7]);
     want([0, 1]);
     expect(asked).toEqual(['cells', '4', '7', '0', '1']);
   });

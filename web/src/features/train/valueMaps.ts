@@ -31,8 +31,8 @@ export function coarseToFine(count: number): number[] {
 
 export interface ValueMaps {
   readonly cells: Accessor<TrainingCells | undefined>;
-  /** By their index. */
-  readonly frames: Accessor<ReadonlyMap<number, TrainingFrame>>;
+  /** By their index; undefined where one was not read. */
+  readonly frames: Accessor<readonly (TrainingFrame | undefined)[]>;
   /** Why the last request failed; undefined if it did not. */
   readonly error: Accessor<string | undefined>;
 }
@@ -44,7 +44,7 @@ export function createValueMaps(
   load: <A>(path: string) => Promise<A> = get,
 ): ValueMaps {
   const [cells, setCells] = createSignal<TrainingCells>();
-  const [frames, setFrames] = createSignal<ReadonlyMap<number, TrainingFrame>>(new Map());
+  const [frames, setFrames] = createSignal<readonly (TrainingFrame | undefined)[]>([]);
   const [error, setError] = createSignal<string>();
   const path = trainingPath(summary().id);
   const hasCells = (): boolean => {
@@ -54,13 +54,17 @@ export function createValueMaps(
   const next = createMemo((): 'cells' | number | undefined => {
     const now = cells();
     if (!now) return hasCells() ? 'cells' : undefined;
-    return wanted(now).find((index) => !frames().has(index));
+    return wanted(now).find((index) => !frames()[index]);
   });
   const read = async (what: 'cells' | number): Promise<void> => {
     if (what === 'cells') setCells(await load<TrainingCells>(`${path}/cells`));
     else {
       const frame = await load<TrainingFrame>(`${path}/frames/${what}`);
-      setFrames((before) => new Map(before).set(what, frame));
+      setFrames((before) => {
+        const after = [...before];
+        after[what] = frame;
+        return after;
+      });
     }
   };
   let isReading = false;
