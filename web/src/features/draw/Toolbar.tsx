@@ -7,6 +7,9 @@ import type { Editor } from './editor';
 import { type Brush, SIZES_MM, type Step, type Tool } from './editing';
 import { TOOL_KEYS } from './keys';
 
+/** Id of the text that describes the tool. */
+export const HELP_ID = 'draw-help';
+
 const TOOLS: readonly (readonly [Tool, name: string, help: string])[] = [
   ['wall', 'Wall', 'Drag to draw by hand. Click for a corner; click it again to finish.'],
   ['post', 'Post', 'Click to put a post. Drag from its middle for another size.'],
@@ -91,7 +94,7 @@ function Size(props: { editor: Editor; brush: Brush; name: string }): JSX.Elemen
   );
 }
 
-export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element {
+export function Toolbar(props: { editor: Editor }): JSX.Element {
   const { editor } = props;
   const tool = (): Tool => editor.editing().tool;
   const help = (): string => TOOLS.find(([name]) => name === tool())?.[2] ?? '';
@@ -111,7 +114,7 @@ export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element 
           )}
         </For>
       </div>
-      <p id={props.helpId} class="draw-help">
+      <p id={HELP_ID} class="draw-help">
         {help()}
       </p>
       <div class="draw-size-place">
