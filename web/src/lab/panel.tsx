@@ -19,12 +19,8 @@ export interface TabPanel extends TabHead {
 }
 
 /** A tab whose code is loaded when it is opened for the first time. */
-export const lazyTab = (
-  id: string,
-  title: string,
-  load: () => Promise<Component<PanelProps>>,
-): TabPanel => ({
-  id,
+export const lazyTab = (title: string, load: () => Promise<Component<PanelProps>>): TabPanel => ({
+  id: title.toLowerCase(),
   title,
   panel: lazyPart<PanelProps>(
     load,

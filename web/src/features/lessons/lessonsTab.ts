@@ -1,7 +1,0 @@
-import { lazyTab } from '../../lab/panel';
-
-export const LESSONS_TAB = lazyTab(
-  'lessons',
-  'Lessons',
-  async () => (await import('./LessonsPanel')).LessonsPanel,
-);
