@@ -18,28 +18,14 @@ export function LayerMenu(props: {
   /** In menu order within each group. */
   layers: readonly MapLayer[];
 }): JSX.Element {
-  let menu!: HTMLDivElement;
-  let button!: HTMLButtonElement;
-  const { open, setOpen, onFocusOut } = createPopover(
-    () => menu,
-    () => button,
-  );
+  const popover = createPopover('layers');
 
   return (
-    <div ref={menu} class="layer-menu" onFocusOut={onFocusOut}>
-      <button
-        ref={button}
-        type="button"
-        class="small"
-        aria-expanded={open()}
-        aria-controls="layers"
-        onClick={() => {
-          setOpen(!open());
-        }}
-      >
+    <div {...popover.box} class="layer-menu">
+      <button {...popover.button} class="small">
         Layers
       </button>
-      <Show when={open()}>
+      <Show when={popover.open()}>
         <div id="layers" class="layers" role="group" aria-label="Layers">
           <For each={LAYER_GROUPS}>
             {(group) => (

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { runsOf } from '../features/lessons/lesson';
+import { isTrainingLesson } from '../features/lessons/lesson';
 import { LESSONS } from '../features/lessons/lessons';
 import { PRESETS } from '../features/share/presets';
 import { experimentFrom, type Known, linkText } from '../lab/experimentLink';
@@ -25,7 +25,9 @@ const KNOWN: Known = {
 describe('links of presets and lessons', () => {
   const links = [
     ...Object.entries(PRESETS),
-    ...LESSONS.flatMap((lesson) => runsOf(lesson).map(({ link }) => [lesson.title, link] as const)),
+    ...LESSONS.flatMap((lesson) =>
+      isTrainingLesson(lesson) ? [] : lesson.runs.map(({ link }) => [lesson.title, link] as const),
+    ),
   ];
   it.each(links)('%s is read and written back unchanged', (_, link) => {
     const read = experimentFrom(link, KNOWN);

@@ -8,12 +8,12 @@ type TabList = readonly [TabPanel, ...TabPanel[]];
 
 export const LOWER_TABS: TabList = [
   PLOTS_TAB,
-  lazyTab('magnet', 'Magnet', () => import('../features/magnet/MagnetPanel')),
-  lazyTab('compare', 'Compare', () => import('../features/compare/ComparePanel')),
-  lazyTab('recovery', 'Recovery', () => import('../features/recovery/RecoveryPanel')),
-  lazyTab('challenge', 'Challenge', () => import('../features/challenge/ChallengePanel')),
+  lazyTab('Magnet', () => import('../features/magnet/MagnetPanel')),
+  lazyTab('Compare', () => import('../features/compare/ComparePanel')),
+  lazyTab('Recovery', () => import('../features/recovery/RecoveryPanel')),
+  lazyTab('Challenge', () => import('../features/challenge/ChallengePanel')),
 ];
 export const ASIDE_TABS: TabList = [
   EVENTS_TAB,
-  lazyTab('lessons', 'Lessons', () => import('../features/lessons/LessonsPanel')),
+  lazyTab('Lessons', () => import('../features/lessons/LessonsPanel')),
 ];

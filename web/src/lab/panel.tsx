@@ -19,8 +19,8 @@ export interface TabPanel extends TabHead {
 }
 
 /** A tab whose code is loaded when it is opened for the first time. */
-export const lazyTab = (id: string, title: string, load: Load<PanelProps>): TabPanel => ({
-  id,
+export const lazyTab = (title: string, load: Load<PanelProps>): TabPanel => ({
+  id: title.toLowerCase(),
   title,
   panel: lazyPart(load, 'tab', (missing) => missing ?? <p class="placeholder">Loading…</p>),
 });

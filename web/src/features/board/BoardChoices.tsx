@@ -2,11 +2,16 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import type { ChallengeSummary } from '../../net/protocol.gen';
+import { ChoiceField, type Option } from '../../ui/fields/fields';
 import { counted } from '../../ui/format';
 import { type Chosen, boardAddress, shortTitle } from './entries';
 import { shownName } from '../../ui/name';
 
-const ALL = '';
+const NONE = '';
+const earlierOption = ({ name, entries }: ChallengeSummary): Option => [
+  name,
+  `${name} (${counted(entries, 'player')})`,
+];
 
 export function BoardChoices(props: {
   all: readonly ChallengeSummary[];
@@ -43,54 +48,25 @@ export function BoardChoices(props: {
         </For>
       </nav>
       <Show when={earlier().length > 0}>
-        <Choice
+        <ChoiceField<string>
           label="Earlier"
-          none="–"
-          value={props.name}
-          options={earlier().map(({ name, entries }) => [
-            name,
-            `${name} (${counted(entries, 'player')})`,
-          ])}
+          value={props.name ?? NONE}
+          options={[[NONE, '–'], ...earlier().map(earlierOption)]}
           onChoose={(challenge) => {
-            if (challenge !== ALL) props.onChoose({ ...props.chosen, challenge });
+            if (challenge !== NONE) props.onChoose({ ...props.chosen, challenge });
           }}
         />
       </Show>
       <Show when={props.classes.length > 0}>
-        <Choice
+        <ChoiceField<string>
           label="Class"
-          none="all"
-          value={props.chosen.ofClass}
-          options={props.classes.map((one) => [one, shownName(one)])}
+          value={props.chosen.ofClass ?? NONE}
+          options={[[NONE, 'all'], ...props.classes.map((one) => [one, shownName(one)] as const)]}
           onChoose={(one) =>
-            props.onChoose({ ...props.chosen, ofClass: one === ALL ? undefined : one })
+            props.onChoose({ ...props.chosen, ofClass: one === NONE ? undefined : one })
           }
         />
       </Show>
     </div>
-  );
-}
-
-function Choice(props: {
-  label: string;
-  /** The first option, chosen if the value is not among the others. */
-  none: string;
-  value: string | undefined;
-  options: readonly (readonly [value: string, text: string])[];
-  onChoose: (value: string) => void;
-}): JSX.Element {
-  return (
-    <label class="board-choice">
-      {props.label}
-      <select onChange={(event) => props.onChoose(event.currentTarget.value)}>
-        <For each={[[ALL, props.none] as const, ...props.options]}>
-          {([value, text]) => (
-            <option value={value} selected={value === (props.value ?? ALL)}>
-              {text}
-            </option>
-          )}
-        </For>
-      </select>
-    </label>
   );
 }

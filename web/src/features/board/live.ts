@@ -1,21 +1,16 @@
 // A board that is read again and again, with the entries that are new.
 
-import { createEffect, createSignal, on, type Accessor } from 'solid-js';
+import { createEffect, createSignal, on } from 'solid-js';
 import { challengePath } from '../../lab/challenges';
-import { createPoll, type Poll } from './poll';
+import { createPoll } from './poll';
 import type { ChallengeReport } from '../../net/protocol.gen';
 import { added, keyOf } from './entries';
 
 const POLL_MS = 3000;
 const NEW_MS = 10_000;
 
-export interface LiveBoard extends Poll<ChallengeReport> {
-  /** Keys of the entries that are new. */
-  readonly fresh: Accessor<ReadonlySet<string>>;
-}
-
 /** Reads the board of a challenge until the owner is disposed of. */
-export function createBoard(name: string): LiveBoard {
+export function createBoard(name: string) {
   const poll = createPoll<ChallengeReport>(challengePath(name), POLL_MS);
   const [fresh, setFresh] = createSignal<ReadonlySet<string>>(new Set());
   createEffect(
@@ -31,5 +26,9 @@ export function createBoard(name: string): LiveBoard {
       );
     }),
   );
-  return { ...poll, fresh };
+  return {
+    ...poll,
+    /** Keys of the entries that are new. */
+    fresh,
+  };
 }

@@ -1,19 +1,12 @@
 // A resource of the server that is read again and again: the page has no session, whose connection would bring it.
 
-import { createSignal, onCleanup, type Accessor } from 'solid-js';
+import { createSignal, onCleanup } from 'solid-js';
 import { get, Refusal } from '../../net/requests';
 
 const NOT_FOUND = 404;
 
-export interface Poll<A> {
-  /** The newest answer; undefined before the first one. */
-  readonly data: Accessor<A | undefined>;
-  /** Why it is out of date, if it is. */
-  readonly error: Accessor<string | undefined>;
-}
-
 /** Reads `path` until the owner is disposed of. A wrong name stays wrong, and is not read again. */
-export function createPoll<A>(path: string, pause_ms: number): Poll<A> {
+export function createPoll<A>(path: string, pause_ms: number) {
   const [data, setData] = createSignal<A>();
   const [error, setError] = createSignal<string>();
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -35,5 +28,10 @@ export function createPoll<A>(path: string, pause_ms: number): Poll<A> {
     clearTimeout(timer);
     isClosed = true;
   });
-  return { data, error };
+  return {
+    /** The newest answer; undefined before the first one. */
+    data,
+    /** Why it is out of date, if it is. */
+    error,
+  };
 }

@@ -30,25 +30,21 @@ function GroupBox(props: { form: Form; group: Group }): JSX.Element {
 }
 
 function Presets(props: { form: Form; kind: PresetKind }): JSX.Element {
-  const { form } = props;
-  const presets = (): PresetKind['presets'] => props.kind.presets;
-  const index = (): number => presetOf(props.kind, form.values());
+  const { form, kind } = props;
+  const { presets } = kind;
+  const index = (): number => presetOf(kind, form.values());
   return (
     <div class="presets">
       <ChoiceField<string>
-        label={props.kind.label}
-        help={presets()
-          .map((one) => `${one.label}: ${one.help}`)
-          .join('\n')}
+        label={kind.label}
+        help={presets.map((one) => `${one.label}: ${one.help}`).join('\n')}
         value={String(index())}
         options={[
           ...(index() < 0 ? [['-1', 'Changed by hand'] as const] : []),
-          ...presets().map(({ label }, at) => [String(at), label] as const),
+          ...presets.map(({ label }, at) => [String(at), label] as const),
         ]}
         disabled={form.disabled()}
-        onChoose={(at) => {
-          form.edit(presets()[Number(at)]?.values ?? {});
-        }}
+        onChoose={(at) => form.edit(presets[Number(at)]?.values ?? {})}
       />
     </div>
   );
@@ -80,9 +76,7 @@ export function ParameterForm(props: { lab: Session & Trial; scene: SceneMessage
             type="button"
             class="small"
             disabled={form.disabled()}
-            onClick={() => {
-              form.edit(props.scene.defaults);
-            }}
+            onClick={() => form.edit(props.scene.defaults)}
           >
             Restore defaults
           </button>

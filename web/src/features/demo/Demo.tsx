@@ -13,13 +13,12 @@ import {
   CARRIERS,
   PROGRAMME,
   SILENCE_MS,
-  afterCue,
   challengeOf,
+  cued,
   homeOf,
   invitation,
   isOver as isPartOver,
   isVisitorKey,
-  nextCue,
   playedCaption,
   startOf,
   turned,
@@ -128,11 +127,10 @@ export function Demo(props: {
   createEffect(
     on(lab.state, (state) => {
       if (!state || touched_ms() !== undefined || lab.scene()?.trial !== own) return;
-      const index = nextCue(place(), state);
-      if (index === undefined) return;
-      const commands = PROGRAMME[place().part]?.cues[index]?.commands ?? [];
-      setPlace(afterCue(place(), index));
-      for (const command of commands) void lab.send('workspace', command);
+      const next = cued(place(), state);
+      if (!next) return;
+      setPlace(next.place);
+      for (const command of next.cue.commands ?? []) void lab.send('workspace', command);
     }),
   );
 
@@ -172,19 +170,14 @@ export function Demo(props: {
   const isWatching = (): boolean =>
     !lab.canOperate() && isLive() && lab.hello()?.operator_present === true;
   const caption = (): string => {
-    const state = lab.state();
-    const { contest } = lab;
-    const attempt = contest.attempt();
-    if (lab.canOperate() && isContest() && attempt) {
-      return touched_ms() === undefined
-        ? invitation(contest.ghosts())
-        : playedCaption(attempt, contest.ghosts());
-    }
-    if (lab.canOperate()) {
-      return touched_ms() === undefined || !state ? place().caption : visitorCaption(state);
-    }
+    const [state, attempt, ghosts] = [lab.state(), lab.contest.attempt(), lab.contest.ghosts()];
     if (isDone() || lab.connection().kind === 'lost') return WAITING;
-    return isWatching() && state ? watchedCaption(state) : '';
+    if (!lab.canOperate()) return isWatching() && state ? watchedCaption(state) : '';
+    const isVisited = touched_ms() !== undefined;
+    if (isContest() && attempt) {
+      return isVisited ? playedCaption(attempt, ghosts) : invitation(ghosts);
+    }
+    return isVisited && state ? visitorCaption(state) : place().caption;
   };
   return (
     <main class="demo" data-part={place().part}>

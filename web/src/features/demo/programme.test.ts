@@ -8,20 +8,26 @@ import {
   PROGRAMME,
   READ_MS,
   REST_MS,
-  afterCue,
   challengeOf,
+  cued,
   homeOf,
   invitation,
   isOver,
   isVisitorKey,
-  nextCue,
   playedCaption,
   startOf,
   turned,
+  type Place,
   visitorCaption,
 } from './programme';
 
 const known = { ...sceneOf('colon'), maps: ['colon', 'posts'] };
+
+/** After this cue of the first part. */
+const after = (place: Place, index: number): Place => {
+  const caption = PROGRAMME[0]?.cues[index]?.caption ?? '';
+  return { ...place, cues: index + 1, waiting: [...place.waiting, caption] };
+};
 
 describe('the programme', () => {
   const links = PROGRAMME.flatMap(({ title, link }) =>
@@ -39,9 +45,9 @@ describe('the programme', () => {
     const captions: string[] = [];
     let now_ms = 0;
     const see = (state: StateMessage): void => {
-      const cue = nextCue(place, state);
-      if (cue === undefined) return;
-      place = turned(afterCue(place, cue), (now_ms += READ_MS));
+      const next = cued(place, state);
+      if (!next) return;
+      place = turned(next.place, (now_ms += READ_MS));
       captions.push(place.caption);
     };
     const first = { phase: phaseOf('transporting'), mode: 2 };
@@ -69,30 +75,30 @@ describe('the programme', () => {
   });
 
   it('goes on after a missed cue', () => {
-    const pulled = afterCue(startOf(0, 0), 2);
+    const pulled = after(startOf(0, 0), 2);
     const carrying = stateAt(1, {
       phase: phaseOf('transporting'),
       mode: 2,
       leg_steps: 9,
       disturbances: 1,
     });
-    expect(nextCue(pulled, carrying), 'a pull that was not carried out').toBe(3);
+    expect(cued(pulled, carrying)?.place.cues, 'a pull that was not carried out').toBe(4);
     const delivered = stateAt(2, { phase: phaseOf('delivered'), mode: 2, deliveries: 1 });
     for (const place of [startOf(0, 0), pulled]) {
-      const cue = nextCue(place, delivered);
-      expect(cue).toBe(4);
-      const last = turned(afterCue(place, cue ?? NaN), READ_MS);
+      const next = cued(place, delivered)?.place ?? place;
+      expect(next.cues).toBe(5);
+      const last = turned(next, READ_MS);
       expect(isOver(turned(last, 2 * READ_MS), 2 * READ_MS + REST_MS + 1)).toBe(true);
     }
   });
 
   it('leaves each caption its time, then shows the newest one', () => {
     const [one, two, three] = PROGRAMME[0]?.cues ?? [];
-    let place = afterCue(startOf(0, 0), 0);
+    let place = after(startOf(0, 0), 0);
     expect(turned(place, READ_MS - 1).caption).toBe(PROGRAMME[0]?.title);
     place = turned(place, READ_MS);
     expect(place.caption).toBe(one?.caption);
-    place = turned(afterCue(afterCue(place, 1), 2), READ_MS + 1);
+    place = turned(after(after(place, 1), 2), READ_MS + 1);
     expect(place.caption).toBe(one?.caption);
     expect(two?.caption).not.toBe(three?.caption);
     expect(turned(place, 2 * READ_MS).caption).toBe(three?.caption);
@@ -100,7 +106,7 @@ describe('the programme', () => {
 
   it('pulls no bead away that was delivered', () => {
     const late = stateAt(1, { phase: phaseOf('settling'), mode: 2, leg_steps: 90 });
-    expect(nextCue(startOf(0, 0), late)).toBeUndefined();
+    expect(cued(startOf(0, 0), late)).toBeUndefined();
   });
 
   it.each([

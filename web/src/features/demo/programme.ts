@@ -148,16 +148,13 @@ export function startOf(part: number, now_ms: number): Place {
   return { part: index, cues: 0, caption, waiting: [], began_ms: now_ms, shown_ms: now_ms };
 }
 
-/** Number of the first cue from the next one on that fits the state, if any. */
-export function nextCue({ part, cues }: Place, state: StateMessage): number | undefined {
-  const all = PROGRAMME[part]?.cues ?? [];
-  const index = all.findIndex(({ when }, index) => index >= cues && when(state));
-  return index < 0 ? undefined : index;
-}
-
-export function afterCue(place: Place, index: number): Place {
-  const caption = PROGRAMME[place.part]?.cues[index]?.caption ?? '';
-  return { ...place, cues: index + 1, waiting: [...place.waiting, caption] };
+/** The first cue from the next one on that fits the state, and the place after it. */
+export function cued(place: Place, state: StateMessage): { cue: Cue; place: Place } | undefined {
+  const cues = PROGRAMME[place.part]?.cues ?? [];
+  const index = cues.findIndex(({ when }, at) => at >= place.cues && when(state));
+  const cue = cues[index];
+  if (!cue) return undefined;
+  return { cue, place: { ...place, cues: index + 1, waiting: [...place.waiting, cue.caption] } };
 }
 
 /** Shows the newest waiting caption when the present one has had its time: a caption is about what is seen now. */

@@ -14,8 +14,6 @@ import { Surface } from './Surface';
 import { Toolbar } from './Toolbar';
 import './draw.css';
 
-const HELP_ID = 'draw-help';
-
 export interface DrawProps {
   /** Keeps the drawing and its history while another view is open. */
   readonly kept: { editor?: Editor };
@@ -37,9 +35,9 @@ export default function DrawView(props: DrawProps): JSX.Element {
   };
   return (
     <main class="view draw">
-      <Toolbar editor={editor} helpId={HELP_ID} />
+      <Toolbar editor={editor} />
       <section class="panel draw-stage" aria-label="Drawing area">
-        <Surface editor={editor} passages={check.found()?.passages ?? []} helpId={HELP_ID} />
+        <Surface editor={editor} passages={check.found()?.passages ?? []} />
         <footer class="panel-foot">
           <p class="hint">Squares of 5 cm. The border is a wall.</p>
           <output class="readout" aria-live="off">

@@ -18,6 +18,7 @@ import type { Editor } from './editor';
 import { pending, shift } from './editing';
 import { onKey } from './keys';
 import { createPointer } from './pointer';
+import { HELP_ID } from './Toolbar';
 
 const GRID_MM = 50;
 const FONT_PX = 12;
@@ -71,11 +72,7 @@ function Passage(props: {
   );
 }
 
-export function Surface(props: {
-  editor: Editor;
-  passages: readonly NarrowPlace[];
-  helpId: string;
-}): JSX.Element {
+export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[] }): JSX.Element {
   const { editor } = props;
   let svg!: SVGSVGElement;
   const [mmPerPx, setMmPerPx] = createSignal(1);
@@ -122,7 +119,7 @@ export function Surface(props: {
       tabindex="0"
       role="application"
       aria-label="Drawing"
-      aria-describedby={props.helpId}
+      aria-describedby={HELP_ID}
       {...createPointer(editor)}
       onKeyDown={(event) => onKey(editor, event)}
     >

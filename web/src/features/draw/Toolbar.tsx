@@ -4,8 +4,11 @@ import { For, Show, type JSX } from 'solid-js';
 import { ChoiceField, FlagField } from '../../ui/fields/fields';
 import { SYMMETRIES } from './drawing';
 import type { Editor } from './editor';
-import { type Brush, SIZES_MM, type Step, type Tool } from './editing';
+import { type Brush, type Settings, SIZES_MM, type Step, type Tool } from './editing';
 import { TOOL_KEYS } from './keys';
+
+/** Id of the text that describes the tool. */
+export const HELP_ID = 'draw-help';
 
 const TOOLS: readonly (readonly [Tool, name: string, help: string])[] = [
   ['wall', 'Wall', 'Drag to draw by hand. Click for a corner; click it again to finish.'],
@@ -83,17 +86,19 @@ function Size(props: { editor: Editor; brush: Brush; name: string }): JSX.Elemen
         step="1"
         value={size_mm()}
         onInput={(event) => {
-          const size_mm = event.currentTarget.valueAsNumber;
-          props.editor.act({ type: 'size', brush: props.brush, size_mm });
+          const sizes = { [props.brush]: event.currentTarget.valueAsNumber };
+          const size_mm = { ...props.editor.editing().size_mm, ...sizes };
+          props.editor.act({ type: 'set', settings: { size_mm } });
         }}
       />
     </label>
   );
 }
 
-export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element {
+export function Toolbar(props: { editor: Editor }): JSX.Element {
   const { editor } = props;
   const tool = (): Tool => editor.editing().tool;
+  const set = (settings: Partial<Settings>): void => editor.act({ type: 'set', settings });
   const help = (): string => TOOLS.find(([name]) => name === tool())?.[2] ?? '';
   return (
     <section class="panel draw-tools" aria-label="Tools">
@@ -111,7 +116,7 @@ export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element 
           )}
         </For>
       </div>
-      <p id={props.helpId} class="draw-help">
+      <p id={HELP_ID} class="draw-help">
         {help()}
       </p>
       <div class="draw-size-place">
@@ -122,13 +127,13 @@ export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element 
       <FlagField
         label={`Snap to ${SNAP_MM} mm`}
         value={editor.editing().snap_mm > 0}
-        onChoose={(snaps) => editor.act({ type: 'snap', snap_mm: snaps ? SNAP_MM : 0 })}
+        onChoose={(snaps) => set({ snap_mm: snaps ? SNAP_MM : 0 })}
       />
       <ChoiceField
         label="Symmetry"
         value={editor.editing().symmetry}
         options={SYMMETRIES}
-        onChoose={(symmetry) => editor.act({ type: 'symmetry', symmetry })}
+        onChoose={(symmetry) => set({ symmetry })}
       />
       <For each={DEEDS}>
         {(row) => (

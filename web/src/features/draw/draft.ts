@@ -1,9 +1,6 @@
 // The drawing in the browser's storage, so that a reload does not lose it.
 
-import { recall, remember } from '../../ui/storage';
 import type { Drawing, Frame, Mm, Shape } from './drawing';
-
-const KEY = 'drawing';
 
 const isNumber = (value: unknown): value is number => Number.isFinite(value);
 
@@ -38,10 +35,4 @@ export function draftFrom(text: string | null): Drawing | undefined {
   } catch {
     return undefined;
   }
-}
-
-export const recallDraft = (): Drawing | undefined => draftFrom(recall(KEY));
-
-export function rememberDraft(drawing: Drawing): void {
-  remember(KEY, JSON.stringify(drawing));
 }

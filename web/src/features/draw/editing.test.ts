@@ -54,7 +54,7 @@ describe('a wall', () => {
 
   it('has a width', () => {
     const steps: Step[] = [
-      { type: 'size', brush: 'wall', size_mm: 30 },
+      { type: 'set', settings: { size_mm: { wall: 30, post: 30, erase: 40 } } },
       click(0, 300),
       { type: 'finish' },
     ];
@@ -111,16 +111,20 @@ it('puts posts, dragged ones with their own size, and copies on the other side',
   expect(shapesOf([tool('post'), drag(0, 300), drag(20, 300), DROP])).toMatchObject([
     { radius_mm: 20 },
   ]);
-  const both: Step = { type: 'symmetry', symmetry: 'both' };
+  const both: Step = { type: 'set', settings: { symmetry: 'both' } };
   expect(shapesOf([both, tool('post'), click(50, 300)])).toHaveLength(4);
-  const free: Step = { type: 'snap', snap_mm: 0 };
+  const free: Step = { type: 'set', settings: { snap_mm: 0 } };
   expect(shapesOf([free, tool('post'), click(1.5, 299)])).toMatchObject([{ center: [1.5, 299] }]);
 });
 
 it('erases, also on the other side, and changes nothing where nothing is', () => {
-  const two: Step[] = [{ type: 'symmetry', symmetry: 'sides' }, tool('post'), click(50, 300)];
+  const two: Step[] = [
+    { type: 'set', settings: { symmetry: 'sides' } },
+    tool('post'),
+    click(50, 300),
+  ];
   expect(shapesOf([...two, tool('erase'), click(50, 300)])).toEqual([]);
-  const one: Step[] = [...two, { type: 'symmetry', symmetry: 'none' }, tool('erase')];
+  const one: Step[] = [...two, { type: 'set', settings: { symmetry: 'none' } }, tool('erase')];
   expect(shapesOf([...one, click(50, 300)])).toHaveLength(1);
   const nothing = run(one);
   expect(run([drag(-200, 300), drag(-200, 400), DROP], nothing).drawing).toBe(nothing.drawing);

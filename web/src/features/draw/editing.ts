@@ -20,13 +20,16 @@ export type Tool = 'wall' | 'post' | 'area' | 'erase' | 'move';
 /** Tools with a size: width of a wall, diameter of a post, width of the eraser. */
 export type Brush = 'wall' | 'post' | 'erase';
 
-export interface Editing {
-  readonly drawing: Drawing;
-  readonly tool: Tool;
+export interface Settings {
   readonly size_mm: Readonly<Record<Brush, number>>;
   /** Spacing of the points to which corners and posts go; 0 for none. */
   readonly snap_mm: number;
   readonly symmetry: Symmetry;
+}
+
+export interface Editing extends Settings {
+  readonly drawing: Drawing;
+  readonly tool: Tool;
   /** Corners of a wall or an area that is not finished. */
   readonly corners: readonly Mm[];
   /** The places of a drag so far. */
@@ -49,9 +52,7 @@ export type Step =
   | { readonly type: 'nudge'; readonly by: Mm }
   | { readonly type: 'mirror'; readonly axis: 'sides' | 'ends' }
   | { readonly type: 'tool'; readonly tool: Tool }
-  | { readonly type: 'size'; readonly brush: Brush; readonly size_mm: number }
-  | { readonly type: 'snap'; readonly snap_mm: number }
-  | { readonly type: 'symmetry'; readonly symmetry: Symmetry }
+  | { readonly type: 'set'; readonly settings: Partial<Settings> }
   /** Another drawing, or an earlier or later state of this one. */
   | { readonly type: 'show'; readonly drawing: Drawing };
 
@@ -254,12 +255,8 @@ export function after(editing: Editing, step: Step): Editing {
     }
     case 'tool':
       return { ...finished(editing), tool: step.tool, selected: undefined };
-    case 'size':
-      return { ...editing, size_mm: { ...editing.size_mm, [step.brush]: step.size_mm } };
-    case 'snap':
-      return { ...editing, snap_mm: step.snap_mm };
-    case 'symmetry':
-      return { ...editing, symmetry: step.symmetry };
+    case 'set':
+      return { ...editing, ...step.settings };
     case 'show':
       return { ...editing, ...IDLE, drawing: step.drawing, selected: undefined };
   }

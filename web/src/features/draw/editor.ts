@@ -2,25 +2,31 @@
 
 import { createSignal } from 'solid-js';
 import { amended, onward, redone, startOf, type Undo, undone } from '../../ui/undo';
-import { recallDraft, rememberDraft } from './draft';
+import { recall, remember } from '../../ui/storage';
+import { draftFrom } from './draft';
 import { BLANK, type Drawing, type Mm } from './drawing';
 import { after, begin, type Step } from './editing';
 
+/** Of the draft in the browser's storage. */
+const KEY = 'drawing';
 const DEFAULT_NAME = 'my-maze';
 
 /** Begins with the draft of the last visit, if there is one. */
 export function createEditor() {
-  const first = recallDraft() ?? BLANK;
+  const first = draftFrom(recall(KEY)) ?? BLANK;
   const [editing, setEditing] = createSignal(begin(first));
   const [history, setHistory] = createSignal(startOf(first));
   const [pointer, point] = createSignal<Mm>();
   const [name, rename] = createSignal(DEFAULT_NAME);
   let last: Step['type'] | undefined;
+  const keep = (undo: Undo<Drawing>): void => {
+    setHistory(undo);
+    remember(KEY, JSON.stringify(undo.present));
+  };
   const show = (undo: Undo<Drawing>): void => {
     last = undefined;
-    setHistory(undo);
+    keep(undo);
     setEditing((now) => after(now, { type: 'show', drawing: undo.present }));
-    rememberDraft(undo.present);
   };
   const act = (step: Step): void => {
     const before = editing().drawing;
@@ -28,9 +34,7 @@ export function createEditor() {
     // Held arrow keys are one change.
     const goesOn = step.type === 'nudge' && last === 'nudge';
     last = step.type;
-    if (drawing === before) return;
-    setHistory((undo) => (goesOn ? amended(undo, drawing) : onward(undo, drawing)));
-    rememberDraft(drawing);
+    if (drawing !== before) keep((goesOn ? amended : onward)(history(), drawing));
   };
   const isDragging = (): boolean => editing().trace.length > 0;
   const isBegun = (): boolean => editing().corners.length > 0;

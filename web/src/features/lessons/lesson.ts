@@ -82,10 +82,6 @@ export const isTraining = (run: Run | TrainingRun): run is TrainingRun => 'polic
 export const isTrainingLesson = (lesson: Lesson): lesson is TrainingLesson =>
   isTraining(lesson.runs[0]);
 
-/** The experiments of a lesson. */
-export const runsOf = (lesson: Lesson): readonly Run[] =>
-  isTrainingLesson(lesson) ? [] : lesson.runs;
-
 const RUNNING: Task = {
   text: 'The simulation runs: press Run or the space bar',
   done: (track) => track.time_s > 0.3,

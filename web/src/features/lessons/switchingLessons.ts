@@ -18,8 +18,10 @@ const KICKS =
 
 const POSTS = '#v=1&map=posts&controller=attractor&seed=1&start=-0.25,-0.37&goal=0.24,-0.36';
 const SLOW = 'approach_speed_m_s=0.05&script=displace:-0.14,-0.5@step:14';
+/** How long the first fetch took. */
 const fetchWords = ({ lostAt_s, fetchedAt_s }: Track): string =>
   lostAt_s === undefined || fetchedAt_s === undefined ? '–' : seconds(fetchedAt_s - lostAt_s);
+
 /** This many switches are no accident. */
 const MANY_SWITCHES = 10;
 

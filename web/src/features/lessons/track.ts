@@ -48,7 +48,7 @@ const NOTHING = {
   liftedAt_m: undefined as number | undefined,
 };
 
-/** What is so in the newest frame. */
+/** What the newest frame shows. */
 const present = ({ scene, state }: Frame) => ({
   /** Number of the followed trial. */
   trial: scene.trial,

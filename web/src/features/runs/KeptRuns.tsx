@@ -12,12 +12,7 @@ const [seen, setSeen] = createSignal<number>();
 
 export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
-  let box!: HTMLDivElement;
-  let button!: HTMLButtonElement;
-  const { open, setOpen, onFocusOut } = createPopover(
-    () => box,
-    () => button,
-  );
+  const popover = createPopover('kept-runs');
   /** Newest first. */
   const runs = createMemo(() => [...(lab.scene()?.kept_runs ?? [])].reverse());
   const newest = createMemo(() => runs()[0]?.number ?? 0);
@@ -25,14 +20,13 @@ export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
     if (!lab.scene()) return;
     // What was there when the page was opened is no news. A new session counts from 1 again.
     const last = seen();
-    if (last === undefined || open() || newest() < last) setSeen(newest());
+    if (last === undefined || popover.open() || newest() < last) setSeen(newest());
   });
   const isFresh = (): boolean => newest() > (seen() ?? newest());
   return (
-    <div ref={box} class="runs" onFocusOut={onFocusOut}>
+    <div {...popover.box} class="runs">
       <button
-        ref={button}
-        type="button"
+        {...popover.button}
         class="small"
         classList={{ fresh: isFresh() }}
         title={
@@ -40,16 +34,11 @@ export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
             ? `Run ${newest()} was kept. Open the list to return to it.`
             : 'What rewinds, resets and other experiments have left behind'
         }
-        aria-expanded={open()}
-        aria-controls="kept-runs"
         disabled={runs().length === 0}
-        onClick={() => {
-          setOpen(!open());
-        }}
       >
         Kept runs <span class="runs-count number">{runs().length}</span>
       </button>
-      <Show when={open() && runs().length > 0}>
+      <Show when={popover.open() && runs().length > 0}>
         <ol id="kept-runs" class="runs-list" aria-label="Kept runs">
           <For each={runs()}>
             {(run) => (
@@ -64,10 +53,7 @@ export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
                   aria-label={`Return to run ${run.number}`}
                   title="Pauses at its end. The present run is kept."
                   command={() => ({ type: 'return_to', run: run.number })}
-                  onDone={() => {
-                    setOpen(false);
-                    button.focus();
-                  }}
+                  onDone={popover.close}
                 >
                   Return
                 </CommandButton>

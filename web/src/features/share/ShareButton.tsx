@@ -13,16 +13,11 @@ export function ShareButton(props: {
   /** Below the link. */
   children: JSX.Element;
 }): JSX.Element {
-  let box!: HTMLDivElement;
-  let button!: HTMLButtonElement;
   let field!: HTMLInputElement;
   const [copied, setCopied] = createSignal('');
-  const { open, setOpen, onFocusOut } = createPopover(
-    () => box,
-    () => button,
-  );
+  const popover = createPopover('share');
   // Asked for when the link is.
-  const [drawn] = createResource(() => (open() ? props.map : undefined), drawingForLink);
+  const [drawn] = createResource(() => (popover.open() ? props.map : undefined), drawingForLink);
   const address = (): string => {
     const { origin, pathname } = window.location;
     const { text } = drawn() ?? {};
@@ -32,7 +27,7 @@ export function ShareButton(props: {
   createEffect(() => {
     // The link has changed since it was copied, or the popover was opened again.
     props.links.now();
-    open();
+    popover.open();
     setCopied('');
   });
   const select = (): void => {
@@ -47,18 +42,11 @@ export function ShareButton(props: {
     else select();
   };
   return (
-    <div ref={box} class="share" onFocusOut={onFocusOut}>
-      <button
-        ref={button}
-        type="button"
-        aria-expanded={open()}
-        aria-controls="share"
-        disabled={props.links.now() === undefined}
-        onClick={() => setOpen(!open())}
-      >
+    <div {...popover.box} class="share">
+      <button {...popover.button} disabled={props.links.now() === undefined}>
         Share
       </button>
-      <Show when={open()}>
+      <Show when={popover.open()}>
         <div id="share" class="share-box" role="group" aria-label="Share this experiment">
           <div class="share-row">
             <input

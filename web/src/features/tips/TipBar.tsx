@@ -48,13 +48,7 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
       {(id) => (
         <p class="tip" role="status">
           <span>{tipText(id(), hasGoal(), IS_TOUCH)}</span>
-          <button
-            type="button"
-            class="small"
-            onClick={() => {
-              store(new Set(TIP_IDS));
-            }}
-          >
+          <button type="button" class="small" onClick={() => store(new Set(TIP_IDS))}>
             Skip tips
           </button>
         </p>

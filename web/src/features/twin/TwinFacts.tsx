@@ -55,39 +55,36 @@ function HoldButton(props: { lab: Session; twin: TwinStanding }): JSX.Element {
   );
 }
 
-function Facts(props: { lab: Session; twin: TwinStanding }): JSX.Element {
-  const hasStopped = (): boolean => props.twin.trouble !== null || props.twin.stopped !== null;
-  return (
-    <section class="twin-facts" aria-label="Robot">
-      <p data-testid="twin-connection" classList={{ stopped: props.twin.trouble !== null }}>
-        {connectionWords(props.twin)}
-      </p>
-      <Show when={props.twin.doubt}>
-        {(doubt) => (
-          <p data-testid="twin-doubt" class="doubt">
-            {doubtWords(doubt())}
-          </p>
-        )}
-      </Show>
-      <p
-        id="twin-motion"
-        data-testid="twin-motion"
-        classList={{ stopped: props.twin.stopped !== null }}
-        role={hasStopped() ? 'alert' : undefined}
-      >
-        {robotMotionWords(props.twin)}
-      </p>
-      <Show when={props.twin.allows_motion}>
-        <HoldButton lab={props.lab} twin={props.twin} />
-        <p class="hint">Not safety-rated: the robot’s emergency stop must be within reach.</p>
-      </Show>
-    </section>
-  );
-}
-
 /** Shown if the arm of this session mirrors a robot. */
 export function TwinFacts(props: { lab: Session & Trial }): JSX.Element {
   return (
-    <Show when={props.lab.state()?.twin}>{(twin) => <Facts lab={props.lab} twin={twin()} />}</Show>
+    <Show when={props.lab.state()?.twin}>
+      {(twin) => (
+        <section class="twin-facts" aria-label="Robot">
+          <p data-testid="twin-connection" classList={{ stopped: twin().trouble !== null }}>
+            {connectionWords(twin())}
+          </p>
+          <Show when={twin().doubt}>
+            {(doubt) => (
+              <p data-testid="twin-doubt" class="doubt">
+                {doubtWords(doubt())}
+              </p>
+            )}
+          </Show>
+          <p
+            id="twin-motion"
+            data-testid="twin-motion"
+            classList={{ stopped: twin().stopped !== null }}
+            role={twin().trouble === null && twin().stopped === null ? undefined : 'alert'}
+          >
+            {robotMotionWords(twin())}
+          </p>
+          <Show when={twin().allows_motion}>
+            <HoldButton lab={props.lab} twin={twin()} />
+            <p class="hint">Not safety-rated: the robot’s emergency stop must be within reach.</p>
+          </Show>
+        </section>
+      )}
+    </Show>
   );
 }

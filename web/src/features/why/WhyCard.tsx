@@ -66,11 +66,8 @@ function Card(props: {
   let card!: HTMLElement;
   const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
   const [moment] = createResource(path, get<MomentMessage>);
-  const place = createMemo(() => {
-    const at = lab.marks().indexOf(props.event);
-    // After a new connection the server sends the events again.
-    return at >= 0 ? at : lab.marks().findIndex((one) => isSameEvent(one, props.event));
-  });
+  // After a new connection the server sends the events again.
+  const place = createMemo(() => lab.marks().findIndex((one) => isSameEvent(one, props.event)));
   const isPast = (): boolean => place() < 0;
   const beside = (step: number): EventMessage | undefined => lab.marks()[place() + step];
   createEffect(
