@@ -46,7 +46,7 @@ export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
   const lab = createLab(window, MAP_LAYERS);
   const links = createPageExperiment(lab, window);
-  void followChallengeLink(lab, window.location);
+  void followChallengeLink(lab, window);
   const { address } = lab;
   const { view } = address;
   const [picture, setPicture] = createSignal<ViewPicture>();
@@ -57,13 +57,10 @@ export function Page(): JSX.Element {
     if (address.lesson() !== undefined) lab.openTab('lessons');
   });
   const drawing: DrawProps['kept'] = {};
-  const showLaboratory = (): void => {
-    address.show('laboratory');
-  };
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
-      showLaboratory();
+      address.show('laboratory');
       void take(file);
     });
   };
@@ -115,18 +112,12 @@ export function Page(): JSX.Element {
           </main>
         </Match>
         <Match when={view() === 'draw'}>
-          <DrawView
-            kept={drawing}
-            lab={lab}
-            open={(file) => opener.open(file)}
-            onLaboratory={showLaboratory}
-          />
+          <DrawView kept={drawing} lab={lab} open={(file) => opener.open(file)} />
         </Match>
         <Match when={view() === 'train'}>
           <TrainView
             lab={lab}
             theme={theme}
-            onLaboratory={showLaboratory}
             onEvaluate={(policy, map) => {
               fillIn(policy, map);
               address.show('evaluate');
@@ -137,7 +128,7 @@ export function Page(): JSX.Element {
           <RecordingsView theme={theme} session={lab.session} tick={lab.state()?.tick} />
         </Match>
         <Match when={view() === 'evaluate'}>
-          <EvaluateView lab={lab} theme={theme} onLaboratory={showLaboratory} />
+          <EvaluateView lab={lab} theme={theme} />
         </Match>
       </Switch>
     </>

@@ -1,6 +1,7 @@
 // The challenge in the page's address, `?challenge=NAME`: begun once, and only by the operator.
 
 import { createEffect, createRoot, type Accessor } from 'solid-js';
+import { leaveAddress } from './address';
 import type { Contested, OpenTab, Session, Trial } from './slices';
 
 export const linkedChallenge = ({ search }: Pick<Location, 'search'>): string | undefined =>
@@ -21,13 +22,14 @@ function until(condition: Accessor<unknown>): Promise<void> {
 
 export async function followChallengeLink(
   lab: Session & Trial & Contested & OpenTab,
-  page: Pick<Location, 'search'>,
+  page: Window,
 ): Promise<void> {
-  const name = linkedChallenge(page);
+  const name = linkedChallenge(page.location);
   if (name === undefined) return;
   await until(() => lab.scene() && lab.hello());
   lab.openTab('challenge');
   await until(lab.canOperate);
   // A page that is loaded again goes on.
-  if (lab.scene()?.challenge !== name) await lab.contest.play(name);
+  const { kind } = await lab.contest.play(name);
+  if (kind === 'done') leaveAddress(page, 'search');
 }

@@ -1,13 +1,6 @@
 // The experiment link in the page's address: loaded once, and only by the operator.
 
-import {
-  createEffect,
-  createMemo,
-  createSignal,
-  onCleanup,
-  untrack,
-  type Accessor,
-} from 'solid-js';
+import { createEffect, createMemo, createSignal, untrack, type Accessor } from 'solid-js';
 import {
   type Experiment,
   experimentFrom,
@@ -18,6 +11,7 @@ import {
 import { leaveAddress } from './address';
 import { drawnMap } from './drawingLink';
 import { knownBy } from './known';
+import { listen } from '../ui/listen';
 import type { Notices, Session, Trial } from './slices';
 import { takeControl } from './takeControl';
 
@@ -40,13 +34,9 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
   const [hash, setHash] = createSignal(page.location.hash);
   /** Whether to load it as soon as this browser is the operator. */
   const [wanted, setWanted] = createSignal(false);
-  const onChange = (): void => {
+  listen('hashchange', () => {
     setHash(page.location.hash);
     setWanted(lab.canOperate());
-  };
-  page.addEventListener('hashchange', onChange);
-  onCleanup(() => {
-    page.removeEventListener('hashchange', onChange);
   });
 
   // Controllers and defaults do not change while the server runs, but maps do.

@@ -2,7 +2,7 @@
 
 import { createMemo, type JSX } from 'solid-js';
 import { PlaceNotice } from '../../lab/PlaceNotice';
-import type { Notices, Session, Trial } from '../../lab/slices';
+import type { Addressed, Notices, Session, Trial } from '../../lab/slices';
 import { fixed } from '../../ui/format';
 import { listen } from '../../ui/listen';
 import { createCheck } from './check';
@@ -17,10 +17,9 @@ import './draw.css';
 export interface DrawProps {
   /** Keeps the drawing and its history while another view is open. */
   readonly kept: { editor?: Editor };
-  readonly lab: Session & Trial & Notices;
+  readonly lab: Addressed & Session & Trial & Notices;
   /** Adds the drawing to the server's maps and loads it; returns whether it was added. */
   readonly open: (file: File) => Promise<boolean>;
-  readonly onLaboratory: () => void;
 }
 
 export default function DrawView(props: DrawProps): JSX.Element {
@@ -51,7 +50,7 @@ export default function DrawView(props: DrawProps): JSX.Element {
         editor={editor}
         check={check}
         onSave={async (file) => {
-          if (await props.open(file)) props.onLaboratory();
+          if (await props.open(file)) props.lab.address.show('laboratory');
         }}
       />
     </main>

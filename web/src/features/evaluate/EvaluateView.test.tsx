@@ -50,8 +50,8 @@ it('shows rows as they come, those of the paper, curves and failures', async () 
     'DELETE /api/evaluations/evaluation-3': () => refusal('too late'),
   });
   server.lists({ evaluations: [summaryOf({ id: 'evaluation-2', stage: 'failed' }), running] });
-  let opened = 0;
-  show(() => <EvaluateView lab={lab} theme={() => 'dark'} onLaboratory={() => (opened += 1)} />);
+  lab.address.show('evaluate');
+  show(() => <EvaluateView lab={lab} theme={() => 'dark'} />);
   const results = page.getByRole('region', { name: 'Results' });
   const rows = (): string[] =>
     [...(results.element() as HTMLElement).querySelectorAll('tbody tr')].map((row) =>
@@ -74,7 +74,7 @@ it('shows rows as they come, those of the paper, curves and failures', async () 
     .toHaveAccessibleName(/ERRT 93 \(79 to 98\)/);
 
   await page.getByRole('button', { name: /^Set it up: episode 7 of ERRT, posts/ }).click();
-  expect(opened).toBe(1);
+  expect(lab.address.view()).toBe('laboratory');
   expect(server.command('load_scenario')).toMatchObject({ map: 'posts', controller: 'errt' });
 
   await page.getByRole('button', { name: 'Cancel' }).click();

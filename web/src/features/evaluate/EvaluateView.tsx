@@ -9,7 +9,7 @@ import { EvaluationPanel } from './EvaluationPanel';
 import { episodesDone, episodesInAll, numberOf, stageWords, subject } from './progress';
 import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
-import type { Session, Trial } from '../../lab/slices';
+import type { Addressed, Session, Trial } from '../../lab/slices';
 import './EvaluateView.css';
 
 /** Outside of the component, so that it survives a change to the laboratory and back. */
@@ -39,9 +39,8 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
 }
 
 export default function EvaluateView(props: {
-  lab: Session & Trial;
+  lab: Addressed & Session & Trial;
   theme: () => Theme;
-  onLaboratory: () => void;
 }): JSX.Element {
   const all = (): readonly EvaluationSummary[] => props.lab.catalog.evaluations() ?? [];
   /** The chosen evaluation, otherwise the newest. */
@@ -77,14 +76,7 @@ export default function EvaluateView(props: {
           </section>
         }
       >
-        {(summary) => (
-          <EvaluationPanel
-            lab={props.lab}
-            summary={summary()}
-            theme={props.theme}
-            onLaboratory={props.onLaboratory}
-          />
-        )}
+        {(summary) => <EvaluationPanel lab={props.lab} summary={summary()} theme={props.theme} />}
       </Show>
     </main>
   );

@@ -23,7 +23,7 @@ import {
 } from './progress';
 import { RobustnessPlots } from './RobustnessPlots';
 import { reportAddress, REPORTS } from './table';
-import type { Session, Trial } from '../../lab/slices';
+import type { Addressed, Session, Trial } from '../../lab/slices';
 import './EvaluationPanel.css';
 
 function Progress(props: {
@@ -56,10 +56,9 @@ function Progress(props: {
 }
 
 export function EvaluationPanel(props: {
-  lab: Session & Trial;
+  lab: Addressed & Session & Trial;
   summary: EvaluationSummary;
   theme: () => Theme;
-  onLaboratory: () => void;
 }): JSX.Element {
   const { lab } = props;
   const report = createReport(() => props.summary);
@@ -131,7 +130,7 @@ export function EvaluationPanel(props: {
               <ComparisonTable comparisons={now().comparisons} />
             </Show>
             <h3>Failures</h3>
-            <FailureList lab={lab} report={now()} onLaboratory={props.onLaboratory} />
+            <FailureList lab={lab} report={now()} />
           </>
         )}
       </Show>

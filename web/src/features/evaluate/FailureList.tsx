@@ -9,16 +9,15 @@ import { type Column, Table } from '../../ui/Table';
 import { setUpAgain } from './setUp';
 import { reason } from './table';
 import { variedWords } from './varied';
-import type { Session, Trial } from '../../lab/slices';
+import type { Addressed, Session, Trial } from '../../lab/slices';
 import './tables.css';
 
 /** Number of failures shown at first and added per click: a controller may fail a thousand times. */
 const PAGE = 50;
 
 export function FailureList(props: {
-  lab: Session & Trial;
+  lab: Addressed & Session & Trial;
   report: EvaluationReport;
-  onLaboratory: () => void;
 }): JSX.Element {
   const { lab } = props;
   const [shown, setShown] = createSignal(PAGE);
@@ -34,7 +33,7 @@ export function FailureList(props: {
     const now = props.report.cells[failure.cell];
     const defaults = lab.scene()?.defaults;
     if (!now || !defaults) return;
-    props.onLaboratory();
+    lab.address.show('laboratory');
     const parameters = { ...defaults, rl_policy: props.report.query.rl_policy };
     const { kind } = await lab.send('playback', setUpAgain(now, failure, parameters));
     if (kind === 'done' && now.program !== null) {

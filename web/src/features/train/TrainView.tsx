@@ -1,7 +1,7 @@
 // The Train view: a policy learns a map, and you watch it.
 
 import { Show, createMemo, type JSX } from 'solid-js';
-import type { Notices, Session, Trial } from '../../lab/slices';
+import type { Addressed, Notices, Session, Trial } from '../../lab/slices';
 import { isActive, milestone, stageSentence } from '../../lab/trainingStage';
 import { createDetail } from '../../net/detail';
 import type {
@@ -38,9 +38,8 @@ function bringIntoView(view: HTMLElement, list: HTMLElement): void {
 }
 
 export default function TrainView(props: {
-  lab: Session & Trial & Notices;
+  lab: Addressed & Session & Trial & Notices;
   theme: () => Theme;
-  onLaboratory: () => void;
   /** Opens the view Evaluate with a policy, by its reference, and a map. */
   onEvaluate: (policy: string, map: string) => void;
 }): JSX.Element {
@@ -76,7 +75,7 @@ export default function TrainView(props: {
   const use = (policy: PolicySummary | undefined, maps: readonly string[]): void => {
     if (!policy) return;
     void usePolicy(lab, policy, maps);
-    props.onLaboratory();
+    lab.address.show('laboratory');
     // Where the page scrolls, the button may be far down.
     window.scrollTo(0, 0);
   };
