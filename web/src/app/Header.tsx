@@ -12,6 +12,7 @@ import { takeControl } from '../lab/takeControl';
 import type { PhaseFact, RecordingFact } from '../net/protocol.gen';
 import { phaseName, phaseWords, recordingWords } from '../words/facts';
 import { TERMS } from '../lab/terms';
+import { SmallButton } from '../ui/SmallButton';
 import './Header.css';
 
 function phaseHelp(phase: PhaseFact): string {
@@ -37,9 +38,7 @@ function RoleBox(props: { lab: Session & Notices }): JSX.Element {
       <span class="role" data-testid="role">
         {operator() ? 'operator' : 'viewer'}
       </span>
-      <button
-        type="button"
-        class="small"
+      <SmallButton
         classList={{ primary: !operator() || lab.hello()?.asked === true }}
         onClick={() => {
           if (operator()) void lab.send('session', { type: 'release_control' });
@@ -47,7 +46,7 @@ function RoleBox(props: { lab: Session & Notices }): JSX.Element {
         }}
       >
         {operator() ? 'Release control' : 'Take control'}
-      </button>
+      </SmallButton>
       <Show when={operator() && lab.hello()?.asked}>
         <span class="asked" data-testid="asked">
           control requested
@@ -143,16 +142,14 @@ export function Header(props: HeaderProps): JSX.Element {
       </dl>
       <div class="page-tools">
         <KeyboardHelp lab={lab} />
-        <button
-          type="button"
-          class="small"
+        <SmallButton
           aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
           onClick={() => {
             props.onTheme();
           }}
         >
           ◐
-        </button>
+        </SmallButton>
       </div>
     </header>
   );

@@ -6,6 +6,7 @@ import { attachShortcuts, keyName } from '../ui/shortcuts';
 import { CONTROLLERS, CONTROLLER_HELP } from '../lab/parameters';
 import { createChoice } from '../ui/storage';
 import type { Lab } from '../lab/slices';
+import { SmallButton } from '../ui/SmallButton';
 import './KeyboardHelp.css';
 
 function WhatYouSee(): JSX.Element {
@@ -40,15 +41,9 @@ export function KeyboardHelp(props: { lab: Lab }): JSX.Element {
   onCleanup(attachShortcuts(shortcuts, areOn));
   return (
     <>
-      <button
-        type="button"
-        class="small"
-        aria-label="Help"
-        title="Help and keyboard shortcuts (?)"
-        onClick={open}
-      >
+      <SmallButton aria-label="Help" title="Help and keyboard shortcuts (?)" onClick={open}>
         ?
-      </button>
+      </SmallButton>
       <dialog
         ref={dialog}
         class="keyboard-help"

@@ -8,6 +8,7 @@ import { VIEW_MODES, type ViewMode } from './viewMode';
 import type { Lab } from '../lab/slices';
 import './WorkspaceHead.css';
 import { addressOf, pathOf } from '../net/base';
+import { SmallButton } from '../ui/SmallButton';
 
 /** Radio buttons, so that arrow keys switch between them. */
 function ViewSwitch(props: {
@@ -91,13 +92,9 @@ export function WorkspaceHead(props: {
           }
         >
           {/* A press steers here, so that a click cannot set the goal. */}
-          <button type="button" class="small" onClick={props.onPickGoal}>
-            Set goal
-          </button>
+          <SmallButton onClick={props.onPickGoal}>Set goal</SmallButton>
         </Show>
-        <button
-          type="button"
-          class="small"
+        <SmallButton
           aria-expanded={props.disturbing}
           aria-controls={props.disturbId}
           disabled={!lab.canOperate()}
@@ -106,7 +103,7 @@ export function WorkspaceHead(props: {
           }}
         >
           Disturb
-        </button>
+        </SmallButton>
       </div>
     </header>
   );

@@ -22,6 +22,7 @@ import { pullOf } from '../plan/paint';
 import type { SurfaceProps } from '../plan/PlanView';
 import type { Size } from '../ui/size';
 import { ViewCanvas } from '../plan/ViewCanvas';
+import { SmallButton } from '../ui/SmallButton';
 import './scene.css';
 
 const VIEWPOINTS: readonly ViewpointName[] = ['Home', 'Top', 'Front', 'Side'];
@@ -203,15 +204,13 @@ export function ScenePanel(
           <div class="looks" role="group" aria-label="Viewpoint">
             <For each={VIEWPOINTS}>
               {(name) => (
-                <button
-                  type="button"
-                  class="small"
+                <SmallButton
                   onClick={() => {
                     view().orbit.take(name);
                   }}
                 >
                   {name}
-                </button>
+                </SmallButton>
               )}
             </For>
           </div>

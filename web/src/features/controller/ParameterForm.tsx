@@ -8,6 +8,7 @@ import type { Session, Trial } from '../../lab/slices';
 import { createFold } from '../../ui/fold';
 import { ChoiceField } from '../../ui/fields/fields';
 import { FoldButton } from '../../ui/FoldButton';
+import { SmallButton } from '../../ui/SmallButton';
 import './ParameterForm.css';
 
 const changedOf = (form: Form, group: Group): number =>
@@ -72,14 +73,9 @@ export function ParameterForm(props: { lab: Session & Trial; scene: SceneMessage
           </Show>
         </h3>
         <Show when={fold.isOpen()}>
-          <button
-            type="button"
-            class="small"
-            disabled={form.disabled()}
-            onClick={() => form.edit(props.scene.defaults)}
-          >
+          <SmallButton disabled={form.disabled()} onClick={() => form.edit(props.scene.defaults)}>
             Restore defaults
-          </button>
+          </SmallButton>
         </Show>
       </div>
       <div id="parameter-groups" hidden={!fold.isOpen()}>

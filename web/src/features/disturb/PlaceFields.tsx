@@ -4,6 +4,7 @@ import { For, onCleanup, type JSX } from 'solid-js';
 import type { Vec2 } from '../../lab/geometry';
 import type { Picker } from '../../plan/interaction';
 import { NumberField } from '../../ui/fields/fields';
+import { SmallButton } from '../../ui/SmallButton';
 
 /** As typed. */
 export interface Place {
@@ -53,10 +54,8 @@ export function PlaceFields(props: {
           />
         )}
       </For>
-      <button
+      <SmallButton
         ref={button}
-        type="button"
-        class="small"
         aria-pressed={isPicking()}
         aria-label={`Pick ${props.name} on the map`}
         title="Click here, then click the place on the map"
@@ -71,7 +70,7 @@ export function PlaceFields(props: {
         }}
       >
         Pick
-      </button>
+      </SmallButton>
     </>
   );
 }

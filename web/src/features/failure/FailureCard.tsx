@@ -16,6 +16,7 @@ import {
 } from '../../lab/failure';
 import type { Events, OpenTab, Pictures, Session, Trial } from '../../lab/slices';
 import { CloseButton } from '../../ui/CloseButton';
+import { SmallButton } from '../../ui/SmallButton';
 import './failure.css';
 
 type FailureLab = Session & Trial & Events & Pictures & OpenTab;
@@ -60,9 +61,7 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
                 </CommandButton>
               )}
             </Show>
-            <button type="button" class="small" onClick={tryAgain}>
-              Go on for {steps()} more steps
-            </button>
+            <SmallButton onClick={tryAgain}>Go on for {steps()} more steps</SmallButton>
             <CommandButton
               lab={lab}
               at="workspace"

@@ -6,6 +6,7 @@ import { Fact } from '../../ui/Fact';
 import type { Lesson } from './lesson';
 import { RunStep } from './RunStep';
 import type { Lessons } from './store';
+import { SmallButton } from '../../ui/SmallButton';
 
 interface Props {
   readonly store: Lessons;
@@ -127,23 +128,16 @@ export function LessonView(props: Props & { lab: Session & Trial }): JSX.Element
         </Switch>
       </div>
       <footer class="lesson-foot">
-        <button
-          type="button"
-          class="small"
-          disabled={store.step() === 0}
-          onClick={() => store.go(store.step() - 1)}
-        >
+        <SmallButton disabled={store.step() === 0} onClick={() => store.go(store.step() - 1)}>
           Back
-        </button>
-        <button
-          type="button"
-          class="small"
+        </SmallButton>
+        <SmallButton
           classList={{ primary: isLast() || store.mayGoOn() }}
           disabled={!isLast() && !store.mayGoOn()}
           onClick={() => (isLast() ? store.close() : store.go(store.step() + 1))}
         >
           {isLast() ? 'Finish' : 'Next'}
-        </button>
+        </SmallButton>
       </footer>
     </>
   );

@@ -7,6 +7,7 @@ import { isActive, stageSentence, updateWords } from '../../lab/trainingStage';
 import type { TrainingSummary } from '../../net/protocol.gen';
 import { isTraining, type Run, type Task, tasksOf, type TrainingRun } from './lesson';
 import type { Lessons } from './store';
+import { SmallButton } from '../../ui/SmallButton';
 
 interface Props<R> {
   readonly lab: Session & Trial;
@@ -50,15 +51,13 @@ function ExperimentStep(props: Props<Run>): JSX.Element {
         to="set up the experiment"
         buttons={
           <>
-            <button
-              type="button"
-              class="small"
+            <SmallButton
               classList={{ primary: !isFollowed() }}
               disabled={!lab.canOperate()}
               onClick={() => void store.setUp(run)}
             >
               {store.track() ? 'Set it up again' : 'Set it up'}
-            </button>
+            </SmallButton>
             <For each={run.actions}>
               {(action) => (
                 <CommandButton
@@ -121,16 +120,14 @@ function TrainingStep(props: Props<TrainingRun>): JSX.Element {
         {...props}
         to="train a policy"
         buttons={
-          <button
-            type="button"
-            class="small"
+          <SmallButton
             classList={{ primary: summary()?.stage !== 'done' }}
             aria-label={`Train ${run.policy}`}
             disabled={!lab.canOperate() || isBusy()}
             onClick={() => void trainings.start(run)}
           >
             {summary() && !isBusy() ? 'Train again' : 'Train'}
-          </button>
+          </SmallButton>
         }
       />
       <div role="alert">

@@ -6,6 +6,7 @@ import { isOutOfReach, reportWords } from '../../lab/maps';
 import { CloseButton } from '../../ui/CloseButton';
 import { FileButton } from '../../ui/FileButton';
 import type { MapOpener } from './opener';
+import { SmallButton } from '../../ui/SmallButton';
 import './maps.css';
 
 export function OpenMap(props: {
@@ -50,14 +51,12 @@ export function OpenMap(props: {
                 Move into reach
               </button>
             </Show>
-            <button
-              type="button"
-              class="small"
+            <SmallButton
               title="Opens the view Train: a policy learns this map"
               onClick={() => props.onTrain()}
             >
               Train a policy on it
-            </button>
+            </SmallButton>
           </div>
         )}
       </Show>

@@ -15,6 +15,7 @@ import { createPalette, type Palette } from '../../ui/palette';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import { shownWalls } from '../../lab/sight';
 import type { ByHand, Events, Notices, Trial } from '../../lab/slices';
+import { SmallButton } from '../../ui/SmallButton';
 import './plots.css';
 
 const FILES = ['CSV', 'PNG', 'SVG'] as const;
@@ -78,14 +79,9 @@ function Tools(props: {
       <span class="unit">Save</span>
       <For each={FILES}>
         {(kind) => (
-          <button
-            type="button"
-            class="small"
-            aria-label={`Save ${kind}`}
-            onClick={() => void save(kind)}
-          >
+          <SmallButton aria-label={`Save ${kind}`} onClick={() => void save(kind)}>
             {kind}
-          </button>
+          </SmallButton>
         )}
       </For>
     </div>

@@ -5,6 +5,7 @@ import type { ByHand, OpenTab } from '../../lab/slices';
 import { SIGHTS, type Sight } from '../../lab/sight';
 import { IS_TOUCH } from '../../ui/touch';
 import { followGamepads } from './pollGamepad';
+import { SmallButton } from '../../ui/SmallButton';
 import './steer.css';
 
 const PUSH = { right: 'to the right', up: 'up', left: 'to the left', down: 'down' } as const;
@@ -37,26 +38,22 @@ export function YouFacts(props: { lab: ByHand & OpenTab }): JSX.Element {
           {padHelp()}
         </p>
         <Show when={gamepad.pad()?.isKnown === false}>
-          <button
-            type="button"
-            class="small"
+          <SmallButton
             title="Forget which stick or cross steers, and ask again"
             onClick={gamepad.relearn}
           >
             Choose the stick again
-          </button>
+          </SmallButton>
         </Show>
       </Show>
-      <button
-        type="button"
-        class="small"
+      <SmallButton
         title="Race the controllers on a trial of the day"
         onClick={() => {
           lab.openTab('challenge');
         }}
       >
         Challenges…
-      </button>
+      </SmallButton>
       <label class="you-approach">
         <input
           type="checkbox"

@@ -5,6 +5,7 @@ import type { Session, Trial } from '../../lab/slices';
 import { IS_TOUCH } from '../../ui/touch';
 import { recall, remember } from '../../ui/storage';
 import { type Shown, TIP_IDS, type TipId, doneAfter, nextTip, tipsFrom, tipText } from './tips';
+import { SmallButton } from '../../ui/SmallButton';
 import './tips.css';
 
 const KEY = 'tips';
@@ -48,9 +49,7 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
       {(id) => (
         <p class="tip" role="status">
           <span>{tipText(id(), hasGoal(), IS_TOUCH)}</span>
-          <button type="button" class="small" onClick={() => store(new Set(TIP_IDS))}>
-            Skip tips
-          </button>
+          <SmallButton onClick={() => store(new Set(TIP_IDS))}>Skip tips</SmallButton>
         </p>
       )}
     </Show>
