@@ -14,6 +14,7 @@ import { knownBy } from './known';
 import { listen } from '../ui/listen';
 import type { Notices, Session, Trial } from './slices';
 import { takeControl } from './takeControl';
+import { reasonText } from '../net/problem';
 
 export interface PageExperiment {
   /** The experiment of the address that is not loaded yet, because a viewer may not load it. */
@@ -67,8 +68,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
       const message = loadMessage({ ...experiment, map }, now.defaults);
       return (await lab.send('playback', message)).kind === 'done';
     } catch (reason) {
-      const why = reason instanceof Error ? reason.message : String(reason);
-      lab.notify('playback', `The map of this link could not be added: ${why}`);
+      lab.notify('playback', `The map of this link could not be added: ${reasonText(reason)}`);
       return false;
     }
   };

@@ -23,6 +23,7 @@ import type { SurfaceProps } from '../plan/PlanView';
 import type { Size } from '../ui/size';
 import { ViewCanvas } from '../plan/ViewCanvas';
 import { SmallButton } from '../ui/SmallButton';
+import { reasonText } from '../net/problem';
 import './scene.css';
 
 const VIEWPOINTS: readonly ViewpointName[] = ['Home', 'Top', 'Front', 'Side'];
@@ -69,7 +70,7 @@ export function ScenePanel(
   };
   const start = (canvas: HTMLCanvasElement): void => {
     open(canvas).catch((reason: unknown) => {
-      setProblem(reason instanceof Error ? reason.message : String(reason));
+      setProblem(reasonText(reason));
       props.onProblem?.();
     });
   };

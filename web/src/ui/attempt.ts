@@ -1,6 +1,6 @@
 // A change that the server may refuse.
 
-import { createSignal, type Accessor } from 'solid-js';
+import { createSignal } from 'solid-js';
 
 /** The text of anything that was thrown. */
 export const messageOf = (reason: unknown): string =>
@@ -10,20 +10,26 @@ export const messageOf = (reason: unknown): string =>
 export type Attempt = (change: Promise<unknown>) => Promise<boolean>;
 
 /** `refusal` is why the last change was refused. */
-export function createAttempt(): {
-  readonly attempt: Attempt;
-  readonly refusal: Accessor<string | undefined>;
-} {
+export function createAttempt() {
   const [refusal, setRefusal] = createSignal<string>();
-  const attempt = async (change: Promise<unknown>): Promise<boolean> => {
+  const [open, setOpen] = createSignal(0);
+  const attempt: Attempt = async (change) => {
     setRefusal(undefined);
+    setOpen((count) => count + 1);
     try {
       await change;
       return true;
     } catch (reason) {
       setRefusal(messageOf(reason));
       return false;
+    } finally {
+      setOpen((count) => count - 1);
     }
   };
-  return { attempt, refusal };
+  return {
+    attempt,
+    refusal,
+    isBusy: (): boolean => open() > 0,
+    forget: () => setRefusal(undefined),
+  };
 }

@@ -2,6 +2,7 @@
 
 import { createSignal, onCleanup } from 'solid-js';
 import { get, Refusal } from '../../net/requests';
+import { reasonText } from '../../net/problem';
 
 const NOT_FOUND = 404;
 
@@ -18,7 +19,7 @@ export function createPoll<A>(path: string, pause_ms: number) {
       setData(() => answer);
       setError(undefined);
     } catch (reason) {
-      setError(reason instanceof Error ? reason.message : String(reason));
+      setError(reasonText(reason));
       if (reason instanceof Refusal && reason.status === NOT_FOUND) return;
     }
     if (!isClosed) timer = setTimeout(() => void read(), pause_ms);

@@ -1,8 +1,9 @@
 // What the server says about the drawing, where it comes from, and where it goes.
 
-import { For, Show, createSignal, type JSX } from 'solid-js';
+import { For, Show, type JSX } from 'solid-js';
 import { checkOf, checkOfMap, freeName, mapName, refuseLarge } from '../../lab/maps';
 import type { Session, Trial } from '../../lab/slices';
+import { createAttempt } from '../../ui/attempt';
 import { TextField } from '../../ui/fields/fields';
 import { FileButton } from '../../ui/FileButton';
 import { download } from '../../ui/download';
@@ -19,9 +20,8 @@ export function SidePanel(props: {
   onSave: (file: File) => Promise<void>;
 }): JSX.Element {
   const { lab } = props;
-  const [isBusy, setBusy] = createSignal(false);
-  /** Why the last drawing could not be opened. */
-  const [refusal, setRefusal] = createSignal<string>();
+  /** Opens drawings. */
+  const { attempt, refusal, isBusy } = createAttempt();
   const plainName = (): string => mapName(props.editor.name()) || 'map';
   /** The whole drawing, with what was begun. */
   const fileOf = (name: string): File => {
@@ -30,17 +30,11 @@ export function SidePanel(props: {
     return new File([svg], `${name}.svg`, { type: 'image/svg+xml' });
   };
   const hasRoom = (): boolean => (props.check.found()?.regions ?? 0) > 0;
-  const take = async (drawing: () => Promise<Drawing>): Promise<void> => {
-    setRefusal(undefined);
-    setBusy(true);
-    try {
-      props.editor.act({ type: 'show', drawing: await drawing() });
-    } catch (reason) {
-      setRefusal(reason instanceof Error ? reason.message : String(reason));
-    }
-    setBusy(false);
+  const show = async (drawing: Promise<Drawing>): Promise<void> => {
+    props.editor.act({ type: 'show', drawing: await drawing });
   };
-  const start = (map: string): Promise<void> =>
+  const take = (drawing: () => Promise<Drawing>) => attempt(show(drawing()));
+  const start = (map: string) =>
     take(async () => (map === '' ? BLANK : drawingOf(await checkOfMap(map))));
   return (
     <section class="panel draw-side" aria-label="Check and use">

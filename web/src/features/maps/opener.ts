@@ -5,6 +5,7 @@ import { loadTrial } from '../../lab/loadTrial';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { MapReport } from '../../net/protocol.gen';
 import { addMap, isOutOfReach } from '../../lab/maps';
+import { reasonText } from '../../net/problem';
 
 interface Added {
   readonly file: File;
@@ -46,7 +47,7 @@ export function createMapOpener(lab: Session & Trial & Notices) {
         await loadTrial(lab, 'playback', { map: report.name });
         return true;
       } catch (reason) {
-        say(reason instanceof Error ? reason.message : String(reason));
+        say(reasonText(reason));
         return false;
       } finally {
         setBusy(false);
