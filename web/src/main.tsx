@@ -12,6 +12,7 @@ import { Page } from './app/Page';
 import { carriesToken, takeToken } from './net/loginToken';
 import { isBoard, isDemo } from './net/session';
 import { lazyView } from './ui/lazyPart';
+import { theme } from './ui/theme';
 
 // A login link in a browser that is already logged in: remove the token from the address.
 takeToken(window);
@@ -24,6 +25,8 @@ window.addEventListener('hashchange', (event) => {
 
 const root = document.getElementById('app');
 if (!root) throw new Error('index.html has no #app');
+// Before anything is drawn.
+theme();
 keepFocus(document);
 /** Loaded when they are opened: most browsers never do. */
 const DemoPage = lazyView(() => import('./app/DemoPage'));

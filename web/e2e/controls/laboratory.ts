@@ -12,7 +12,7 @@ import {
   freePointNearBead,
   open,
 } from '../support/preconditions';
-import { must, until } from '../support/wait';
+import { until } from '../support/wait';
 import { RESTORE } from './parameters';
 import { type Row, type Section, expanded, toggle, view } from './row';
 
@@ -234,12 +234,6 @@ const LAYER_NAMES = [
 
 export const LAYERS: Section = {
   name: 'layers',
-  ready: async (lab) => {
-    // The page stores the layers only after a change.
-    await lab.layer('Trails', false);
-    await lab.layer('Trails');
-    must(await layers(lab), 'stored layers');
-  },
   rowReady: open('Layers'),
   rows: Object.fromEntries(LAYER_NAMES.map((name) => [`checkbox ${name}`, toggle(layers)])),
 };

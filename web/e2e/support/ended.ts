@@ -16,7 +16,9 @@ export async function endFirstSession(page: Page) {
         socket.send(text);
         return;
       }
-      socket.send(JSON.stringify({ ...message, ended: 'the camera was lost' }));
+      const detail = 'the camera was lost';
+      const ended = { code: 'trial_failed', detail, text: detail };
+      socket.send(JSON.stringify({ ...message, ended }));
       void socket.close({ code: 1001, reason: 'the session has ended' });
     });
   });

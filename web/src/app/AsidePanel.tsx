@@ -1,19 +1,10 @@
 // The panel beside the workspace: events or lessons.
 
 import type { JSX } from 'solid-js';
-import type { Theme } from '../ui/theme';
 import { TabArea } from './TabArea';
 import { ASIDE_TABS } from './tabs';
 import type { Lab } from '../lab/slices';
 
-export function AsidePanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
-  return (
-    <TabArea
-      lab={props.lab}
-      theme={props.theme}
-      area="aside"
-      label="Beside the workspace"
-      tabs={ASIDE_TABS}
-    />
-  );
+export function AsidePanel(props: { lab: Lab }): JSX.Element {
+  return <TabArea lab={props.lab} area="aside" label="Beside the workspace" tabs={ASIDE_TABS} />;
 }

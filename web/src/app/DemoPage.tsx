@@ -7,8 +7,6 @@ import { createInteraction } from '../plan/interaction';
 import { createLayers } from '../plan/layer';
 import { PlanView } from '../plan/PlanView';
 import { ScenePanel } from '../scene/ScenePanel';
-import { createPalette } from '../ui/palette';
-import { createTheme } from '../ui/theme';
 import { MAP_LAYERS } from './layers';
 
 const HELP_ID = 'demo-help';
@@ -16,17 +14,15 @@ const HELP_ID = 'demo-help';
 const GRAB_PX = 56;
 
 export default function DemoPage(): JSX.Element {
-  const { theme } = createTheme();
   const lab = createLab(window, MAP_LAYERS);
-  const palette = createPalette(theme);
   const interaction = createInteraction(lab, GRAB_PX);
-  const layers = createLayers(MAP_LAYERS, lab, palette);
+  const layers = createLayers(MAP_LAYERS, lab);
   const [isFlat, setFlat] = createSignal(false);
   const toPlan = (): void => {
     setFlat(true);
   };
   const [begun, setBegun] = createSignal(0);
-  const surface = { lab, interaction, layers, palette, helpId: HELP_ID, whole: begun };
+  const surface = { lab, interaction, layers, helpId: HELP_ID, whole: begun };
   return (
     <Demo
       lab={lab}

@@ -1,7 +1,6 @@
 // The header: connection, role, mode, counters.
 
 import { For, Show, type JSX } from 'solid-js';
-import type { Theme } from '../ui/theme';
 import { ConnectionStatus } from './ConnectionStatus';
 import { KeyboardHelp } from './KeyboardHelp';
 import { PlaceNotice } from '../lab/PlaceNotice';
@@ -13,6 +12,7 @@ import type { PhaseFact, RecordingFact } from '../net/protocol.gen';
 import { phaseName, phaseWords, recordingWords } from '../words/facts';
 import { TERMS } from '../lab/terms';
 import { SmallButton } from '../ui/SmallButton';
+import { theme, toggleTheme } from '../ui/theme';
 import './Header.css';
 
 function phaseHelp(phase: PhaseFact): string {
@@ -58,8 +58,6 @@ function RoleBox(props: { lab: Session & Notices }): JSX.Element {
 
 interface HeaderProps {
   readonly lab: Lab;
-  readonly theme: () => Theme;
-  readonly onTheme: () => void;
 }
 
 /** Whether everything is recorded. The title has the whole status. */
@@ -143,10 +141,8 @@ export function Header(props: HeaderProps): JSX.Element {
       <div class="page-tools">
         <KeyboardHelp lab={lab} />
         <SmallButton
-          aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
-          onClick={() => {
-            props.onTheme();
-          }}
+          aria-label={theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
+          onClick={toggleTheme}
         >
           ◐
         </SmallButton>

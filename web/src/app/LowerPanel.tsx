@@ -1,18 +1,16 @@
 // The panel below the workspace: plots, magnet, or comparison.
 
 import { createSignal, type JSX } from 'solid-js';
-import type { Theme } from '../ui/theme';
 import { TabArea } from './TabArea';
 import { LOWER_TABS } from './tabs';
 import type { Lab } from '../lab/slices';
 import './LowerPanel.css';
 
-export function LowerPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
+export function LowerPanel(props: { lab: Lab }): JSX.Element {
   const [large, setLarge] = createSignal(false);
   return (
     <TabArea
       lab={props.lab}
-      theme={props.theme}
       area="lower"
       label="Below the workspace"
       tabs={LOWER_TABS}

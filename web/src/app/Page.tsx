@@ -32,8 +32,6 @@ import { WhyCard } from '../features/why/WhyCard';
 import { ControllerFacts } from './ControllerFacts';
 import { onFileDrop } from '../ui/fileDrop';
 import { lazyView } from '../ui/lazyPart';
-import { createPalette } from '../ui/palette';
-import { createTheme } from '../ui/theme';
 import type { ViewPicture } from '../plan/viewPicture';
 import { WorkspacePanel } from './WorkspacePanel';
 
@@ -43,14 +41,13 @@ const EvaluateView = lazyView(() => import('../features/evaluate/EvaluateView'))
 const RecordingsView = lazyView(() => import('../features/recordings/RecordingsView'));
 
 export function Page(): JSX.Element {
-  const { theme, toggle } = createTheme();
   const lab = createLab(window, MAP_LAYERS);
   const links = createPageExperiment(lab, window);
   void followChallengeLink(lab, window);
   const { address } = lab;
   const { view } = address;
   const [picture, setPicture] = createSignal<ViewPicture>();
-  const capture = createCapture(lab, picture, createPalette(theme));
+  const capture = createCapture(lab, picture);
   const opener = createMapOpener(lab);
   createEffect(() => {
     document.title = view() === 'laboratory' ? 'Ferry' : `${VIEWS[view()]} – Ferry`;
@@ -70,7 +67,7 @@ export function Page(): JSX.Element {
   onDrop(/\.json$/i, (file) => openCase(lab, file));
   return (
     <>
-      <Header lab={lab} theme={theme} onTheme={toggle} />
+      <Header lab={lab} />
       <LiveRegion lab={lab} />
       <Switch>
         <Match when={view() === 'laboratory'}>
@@ -100,15 +97,15 @@ export function Page(): JSX.Element {
             below={<WhyCard lab={lab} />}
           />
           <main>
-            <WorkspacePanel lab={lab} theme={theme} onPicture={setPicture}>
+            <WorkspacePanel lab={lab} onPicture={setPicture}>
               <RecordingClock capture={capture} />
             </WorkspacePanel>
             <CameraPanel lab={lab} />
             <ControllerPanel lab={lab} above={<TwinFacts lab={lab} />}>
               <ControllerFacts lab={lab} />
             </ControllerPanel>
-            <LowerPanel lab={lab} theme={theme} />
-            <AsidePanel lab={lab} theme={theme} />
+            <LowerPanel lab={lab} />
+            <AsidePanel lab={lab} />
           </main>
         </Match>
         <Match when={view() === 'draw'}>
@@ -117,7 +114,6 @@ export function Page(): JSX.Element {
         <Match when={view() === 'train'}>
           <TrainView
             lab={lab}
-            theme={theme}
             onEvaluate={(policy, map) => {
               fillIn(policy, map);
               address.show('evaluate');
@@ -125,10 +121,10 @@ export function Page(): JSX.Element {
           />
         </Match>
         <Match when={view() === 'recordings'}>
-          <RecordingsView theme={theme} session={lab.session} tick={lab.state()?.tick} />
+          <RecordingsView session={lab.session} tick={lab.state()?.tick} />
         </Match>
         <Match when={view() === 'evaluate'}>
-          <EvaluateView lab={lab} theme={theme} />
+          <EvaluateView lab={lab} />
         </Match>
       </Switch>
     </>

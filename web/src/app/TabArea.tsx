@@ -4,12 +4,10 @@ import type { JSX } from 'solid-js';
 import { Dynamic } from 'solid-js/web';
 import type { TabPanel } from '../lab/panel';
 import { Tabs } from '../ui/Tabs';
-import type { Theme } from '../ui/theme';
 import type { Lab } from '../lab/slices';
 
 export function TabArea(props: {
   lab: Lab;
-  theme: () => Theme;
   area: string;
   label: string;
   tabs: readonly [TabPanel, ...TabPanel[]];
@@ -26,9 +24,7 @@ export function TabArea(props: {
       }}
       aside={props.aside}
     >
-      {(tab, tools) => (
-        <Dynamic component={tab.panel} lab={props.lab} theme={props.theme} tools={tools} />
-      )}
+      {(tab, tools) => <Dynamic component={tab.panel} lab={props.lab} tools={tools} />}
     </Tabs>
   );
 }

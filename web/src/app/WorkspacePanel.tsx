@@ -3,9 +3,7 @@
 import { For, Match, Show, Switch, createMemo, createSignal } from 'solid-js';
 import type { JSX } from 'solid-js';
 import { fixed } from '../ui/format';
-import { createPalette } from '../ui/palette';
 import { PlaceNotice } from '../lab/PlaceNotice';
-import type { Theme } from '../ui/theme';
 import { StageBar } from '../features/challenge/StageBar';
 import { DisturbBar } from '../features/disturb/DisturbBar';
 import { MarksLegend } from '../features/marks/MarksLegend';
@@ -30,7 +28,6 @@ const HELP_ID = 'workspace-help';
 
 export function WorkspacePanel(props: {
   lab: Lab;
-  theme: () => Theme;
   onPicture: (picture: ViewPicture | undefined) => void;
   /** Over the view. */
   children: JSX.Element;
@@ -39,9 +36,8 @@ export function WorkspacePanel(props: {
   let stage!: HTMLDivElement;
   const [mode, choose] = createChoice('view', ['plan', 'scene']);
   const [disturbing, setDisturbing] = createSignal(false);
-  const palette = createPalette(() => props.theme());
   const interaction = createInteraction(lab);
-  const layers = createLayers(MAP_LAYERS, lab, palette);
+  const layers = createLayers(MAP_LAYERS, lab);
   /** Topmost layer first. */
   const menu = [...layers].reverse();
 
@@ -72,7 +68,7 @@ export function WorkspacePanel(props: {
   const onPicture = (picture: ViewPicture | undefined): void => {
     props.onPicture(picture);
   };
-  const surfaceProps = { lab, interaction, layers, palette, helpId: HELP_ID, onPicture };
+  const surfaceProps = { lab, interaction, layers, helpId: HELP_ID, onPicture };
 
   return (
     <section class="panel workspace">

@@ -3,12 +3,10 @@
 import type { Component } from 'solid-js';
 import { lazyPart, type Load } from '../ui/lazyPart';
 import type { TabHead } from '../ui/Tabs';
-import type { Theme } from '../ui/theme';
 import type { Lab } from './slices';
 
 export interface PanelProps<L = Lab> {
   readonly lab: L;
-  readonly theme: () => Theme;
   /** The panel's own controls beside the tabs. */
   readonly tools: HTMLElement;
 }

@@ -10,7 +10,6 @@ import {
   type Accessor,
   type JSX,
 } from 'solid-js';
-import type { Palette } from '../ui/palette';
 import { fitView, pxFromWorld, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
 import { fogImage } from './fog';
@@ -24,6 +23,7 @@ import { type Frame, WHOLE, type Zoom, zoomedView } from './zoom';
 import { yieldToPage, zooming } from './zooming';
 import './plan.css';
 import type { ByHand, Layers, Pictures, Session, Trial, Walls } from '../lab/slices';
+import { palette } from '../ui/palette';
 
 /** Space for the numbers of the axes, in pixels. */
 const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
@@ -32,7 +32,6 @@ export interface SurfaceProps {
   readonly lab: Session & Trial & Layers & Pictures & ByHand & Walls;
   readonly interaction: Interaction;
   readonly layers: readonly LiveLayer[];
-  readonly palette: Accessor<Palette>;
   readonly helpId: string;
   /** The whole workspace is shown again when this changes. */
   readonly whole?: Accessor<number>;
@@ -48,7 +47,7 @@ const atTool =
   };
 
 export function PlanView(props: SurfaceProps): JSX.Element {
-  const { lab, interaction, layers, palette } = props;
+  const { lab, interaction, layers } = props;
   const { act, reachPx, focused, cursor } = interaction;
   const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
@@ -71,7 +70,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     const now = view();
     interaction.setView(now && tableViewOf(now));
   });
-  const baseMap = createBaseMap(lab, layers, palette, view, lab.movedWalls);
+  const baseMap = createBaseMap(lab, layers, view, lab.movedWalls);
 
   const moving = createMemo(() => [
     ...shownParts(layers, 'underTool').map(({ drawing }) => atTool(drawing)),

@@ -1,10 +1,16 @@
 import { createRoot, createSignal } from 'solid-js';
 import { expect, test, vi } from 'vitest';
 import { sceneOf } from '../lab/testing';
-import type { Palette } from '../ui/palette';
 import { createBaseMap } from './baseMap';
 import { type BasePicture, type Draw, drawn, type LiveLayer } from './layer';
 import { Sheet } from './sheet';
+import * as colours from '../ui/palette';
+
+vi.mock('../ui/palette', () => {
+  const [palette, setPalette] = createSignal({});
+  return { palette, setPalette };
+});
+const { setPalette } = colours as unknown as { setPalette: (palette: object) => void };
 
 const VIEW = { pxPerM: 1000, originX: 0, originY: 0 };
 const noDraw: Draw<BasePicture> = () => undefined;
@@ -19,7 +25,6 @@ function open() {
     },
   );
   const [scene, setScene] = createSignal(sceneOf('posts'));
-  const [palette, setPalette] = createSignal({} as Palette);
   const [view, setView] = createSignal(VIEW);
   const [below, setBelow] = createSignal(1);
   const [above, setAbove] = createSignal(1);
@@ -34,12 +39,12 @@ function open() {
     belowWalls: drawn(below, noDraw),
     aboveWalls: drawn(above, noDraw),
   };
-  const base = createRoot(() => createBaseMap({ scene }, [layer], palette, view));
-  return { base, setScene, setPalette, setView, setBelow, setAbove, setShown };
+  const base = createRoot(() => createBaseMap({ scene }, [layer], view));
+  return { base, setScene, setView, setBelow, setAbove, setShown };
 }
 
 test('the base map changes with map, theme, size and its layers, and with nothing else', () => {
-  const { base, setScene, setPalette, setView, setBelow, setAbove, setShown } = open();
+  const { base, setScene, setView, setBelow, setAbove, setShown } = open();
   let before = base();
   const changes = (): { map: boolean; ground: boolean } => {
     const now = base();
@@ -51,7 +56,7 @@ test('the base map changes with map, theme, size and its layers, and with nothin
   expect(changes()).toEqual({ map: false, ground: false });
   setScene(sceneOf('colon'));
   expect(changes()).toEqual(both);
-  setPalette({} as Palette);
+  setPalette({});
   expect(changes()).toEqual(both);
   setView({ ...VIEW, pxPerM: 2000 });
   expect(changes()).toEqual(both);

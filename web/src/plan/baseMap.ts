@@ -1,7 +1,6 @@
 // The base map: layers that rarely change. The plan view draws it below the moving parts, the 3-D scene on its floor.
 
 import { createMemo, type Accessor } from 'solid-js';
-import type { Palette } from '../ui/palette';
 import { drawFloor, drawGrid, drawOutlines, wallPath } from './drawMap';
 import { drawMovedWalls } from './drawMovedWalls';
 import { type BasePicture, type Draw, type LiveLayer, shownParts } from './layer';
@@ -9,6 +8,7 @@ import { pxRect, type View } from './transform';
 import type { MovedWalls } from '../lab/movedWalls';
 import type { Trial } from '../lab/slices';
 import type { Ctx } from './sheet';
+import { palette } from '../ui/palette';
 
 /** Floor and walls, with the layers between them. */
 export interface Ground extends BasePicture {
@@ -38,7 +38,6 @@ export const clipped =
 export function createBaseMap(
   lab: Pick<Trial, 'scene'>,
   layers: readonly LiveLayer[],
-  palette: Accessor<Palette>,
   view: Accessor<View | undefined>,
   moved?: Accessor<MovedWalls | undefined>,
 ): Accessor<BaseMap | undefined> {

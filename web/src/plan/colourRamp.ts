@@ -1,6 +1,5 @@
-// Colours for values between a smallest and a greatest value.
-
 import type { Palette } from '../ui/palette';
+// Colours for values between a smallest and a greatest value.
 
 type Rgb = readonly [number, number, number];
 /** Colours of the smallest, the middle and the greatest value, as `#rrggbb`. */

@@ -1,10 +1,10 @@
 // Draws a run beside the session's own: the way of its bead, and tool and bead at one time.
 
 import type { Vec2 } from '../lab/geometry';
-import type { Palette } from '../ui/palette';
 import { circle } from './shapes';
 import { pxFromWorld, type View } from './transform';
 import type { Ctx } from './sheet';
+import type { Palette } from '../ui/palette';
 
 const TOOL_PX = 7;
 const BEAD_PX = 3.5;

@@ -3,9 +3,9 @@
 import { pxFromWorld, type View } from './transform';
 import { FONT } from './drawMap';
 import { circle, cross } from './shapes';
-import type { Palette } from '../ui/palette';
 import { distance, type Vec2 } from '../lab/geometry';
 import type { Ctx } from './sheet';
+import type { Palette } from '../ui/palette';
 
 const COIL_PX = 7;
 const COIL_HALF_WIDTH_PX = 5;

@@ -3,8 +3,8 @@
 import { fixed } from '../ui/format';
 import type { Polygon, Rect } from '../net/protocol.gen';
 import { pxFromWorld, pxRect, type View } from './transform';
-import type { Palette } from '../ui/palette';
 import type { Ctx } from './sheet';
+import type { Palette } from '../ui/palette';
 
 export const FONT = '11px system-ui, sans-serif';
 const LABEL_GAP_PX = 5;

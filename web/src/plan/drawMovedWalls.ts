@@ -2,10 +2,10 @@
 
 import type { MovedWalls } from '../lab/movedWalls';
 import type { Rect } from '../net/protocol.gen';
-import type { Palette } from '../ui/palette';
 import { drawBorder, EDGE_PX } from './drawMap';
 import { pxRect, type View } from './transform';
 import type { Ctx } from './sheet';
+import type { Palette } from '../ui/palette';
 
 /** A path around what is not free. The outlines are moved into the walls by `into_px`. */
 function wallPath(table: Path2D, walls: MovedWalls, view: View, into_px: number): Path2D {

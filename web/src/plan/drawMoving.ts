@@ -2,10 +2,10 @@
 
 import { GOAL_RADIUS_M } from '../net/protocol.gen';
 import { pxFromWorld, type View } from './transform';
-import type { Palette } from '../ui/palette';
 import type { Vec2 } from '../lab/geometry';
 import { circle, cross } from './shapes';
 import type { Ctx } from './sheet';
+import type { Palette } from '../ui/palette';
 
 /** The bead has a diameter of 5 mm. On a small canvas it is enlarged to stay visible. */
 const MIN_BEAD_PX = 4.5;

@@ -1,12 +1,12 @@
 // Draws the value layer: one colour per cell, and arrows of the best steps.
 
-import type { Palette } from '../ui/palette';
 import { pxFromWorld, type View } from './transform';
 import { type ValueCells, valueArrows, valuePicture, type ValuePicture } from './values';
 import { arrowPath } from './arrows';
 import { heatRamp, type Range } from './colourRamp';
 import { imageOf } from './pixels';
 import type { Ctx } from './sheet';
+import type { Palette } from '../ui/palette';
 
 export interface Values {
   readonly map: ValueCells;

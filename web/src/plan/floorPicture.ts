@@ -1,11 +1,11 @@
 // The pictures on the floor of the 3-D scene: the base map, and around it the numbers of the axes, large enough to read
 // from a distance.
 
-import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
 import { fitView, type Insets, type View } from './transform';
 import { drawGrid } from './drawMap';
 import { type BaseMap, paintAbove, paintGround } from './baseMap';
+import type { Palette } from '../ui/palette';
 
 /** The longer side of the workspace, in pixels of the base map. */
 const LONGER_PX = 460;

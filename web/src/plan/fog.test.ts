@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
-import type { Palette } from '../ui/palette';
 import { fogPixels } from './fog';
+import type { Palette } from '../ui/palette';
 
 const palette = { fog: '#010203' } as Palette;
 const alphas = (pixels: Uint8ClampedArray) => [...pixels].filter((_, index) => index % 4 === 3);

@@ -1,12 +1,12 @@
 // Fog over what the camera has not seen.
 
 import type { SeenMessage } from '../net/protocol.gen';
-import type { Palette } from '../ui/palette';
 import { seenCells, UNKNOWN } from '../lab/obstacleMap';
 import { rgb } from './colourRamp';
 import type { BasePicture, Draw } from './layer';
 import { gridPixels, imageOf, type Rgba } from './pixels';
 import { pxRect } from './transform';
+import type { Palette } from '../ui/palette';
 
 const CLEAR: Rgba = [0, 0, 0, 0];
 

@@ -3,10 +3,10 @@
 import { createMemo, type Accessor, type JSX } from 'solid-js';
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import type { Palette } from '../ui/palette';
 import type { View } from './transform';
 import type { Lab } from '../lab/slices';
 import type { Ctx } from './sheet';
+import type { Palette } from '../ui/palette';
 
 /** Headings of the menu, in its order. */
 export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm'] as const;
@@ -65,7 +65,6 @@ export function drawn<P extends BasePicture, T>(
 
 export interface LayerContext<L = Lab> {
   readonly lab: L;
-  readonly palette: Accessor<Palette>;
   readonly isShown: Accessor<boolean>;
 }
 
@@ -108,12 +107,11 @@ export function shownParts<Part extends keyof Drawings>(layers: readonly LiveLay
 export function createLayers<L extends MapLayer>(
   layers: readonly L[],
   lab: Lab,
-  palette: Accessor<Palette>,
 ): readonly LiveLayer<L>[] {
   return layers.map((layer) => {
     const isShown = createMemo(
       () => lab.layers().has(layer.id) && hiddenBecause(layer, lab) === undefined,
     );
-    return { ...layer, ...layer.create({ lab, palette, isShown }), isShown };
+    return { ...layer, ...layer.create({ lab, isShown }), isShown };
   });
 }

@@ -24,6 +24,7 @@ import type { Size } from '../ui/size';
 import { ViewCanvas } from '../plan/ViewCanvas';
 import { SmallButton } from '../ui/SmallButton';
 import { reasonText } from '../net/problem';
+import { palette } from '../ui/palette';
 import './scene.css';
 
 const VIEWPOINTS: readonly ViewpointName[] = ['Home', 'Top', 'Front', 'Side'];
@@ -51,7 +52,7 @@ export function ScenePanel(
     onProblem?: () => void;
   },
 ): JSX.Element {
-  const { lab, interaction, layers, palette } = props;
+  const { lab, interaction, layers } = props;
   const { act, reachPx, focused, cursor } = interaction;
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
@@ -117,7 +118,7 @@ export function ScenePanel(
     // Keep the picture of the same table.
     { equals: (a, b) => JSON.stringify(a?.workspace) === JSON.stringify(b?.workspace) },
   );
-  const baseMap = createBaseMap(lab, layers, palette, () => picture()?.view);
+  const baseMap = createBaseMap(lab, layers, () => picture()?.view);
   createEffect(() => {
     const [onto, now] = [picture(), baseMap()];
     const view = drawing();

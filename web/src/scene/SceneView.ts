@@ -3,7 +3,6 @@
 import { Group, PCFShadowMap, Scene, WebGLRenderer, type Object3D } from 'three';
 import type { History } from '../lab/history';
 import type { MovedWalls } from '../lab/movedWalls';
-import type { Palette } from '../ui/palette';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { UnderTool } from '../plan/layer';
 import type { FloorPicture } from '../plan/floorPicture';
@@ -20,6 +19,7 @@ import { dispose } from './solids';
 import { Table } from './table';
 import { Tool } from './tool';
 import type { TableView, Vec2 } from '../lab/geometry';
+import type { Palette } from '../ui/palette';
 
 const MAX_PIXEL_RATIO = 2;
 const NO_WEBGL =

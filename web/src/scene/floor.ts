@@ -12,11 +12,11 @@ import {
   type Material,
   type MeshBasicMaterialParameters,
 } from 'three';
-import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
 import { numbersPicture, type FloorPicture } from '../plan/floorPicture';
 import type { UnderTool } from '../plan/layer';
 import { ORDER, type Paints } from './paints';
+import type { Palette } from '../ui/palette';
 
 /** Height of floor layers over the floor, so that they do not flicker. */
 const HAZE_UP_M = 1e-4;

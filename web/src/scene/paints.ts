@@ -13,8 +13,8 @@ import {
   type Texture,
 } from 'three';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
-import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
+import type { Palette } from '../ui/palette';
 
 export type PaintName = keyof Palette;
 

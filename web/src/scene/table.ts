@@ -14,7 +14,6 @@ import {
   Vector2,
   type Material,
 } from 'three';
-import type { Palette } from '../ui/palette';
 import type { MovedWalls } from '../lab/movedWalls';
 import { WALL_HEIGHT_M, type Polygon, type Rect, type SceneMessage } from '../net/protocol.gen';
 import { around, cornersOf } from '../lab/geometry';
@@ -24,6 +23,7 @@ import { axisNumbers } from './floor';
 import { MovedWallMesh } from './movedWallMesh';
 import type { Paints } from './paints';
 import { dispose } from './solids';
+import type { Palette } from '../ui/palette';
 
 /** Of the table, around the numbers of the axes: a portal's rails lie there. */
 export const EDGE_M = 0.022;

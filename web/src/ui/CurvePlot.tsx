@@ -5,6 +5,7 @@ import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { createCurve, type CurveContext, type CurveLine, showCursor } from './curve';
 import { onSize } from './size';
+import { palette } from './palette';
 import './plot.css';
 
 /** What the colours of lines mean. */
@@ -58,7 +59,7 @@ export function CurvePlot(props: {
         untrack(() => props.at),
       );
     });
-    createEffect(on(props.context.palette, () => plot.redraw(true), { defer: true }));
+    createEffect(on(palette, () => plot.redraw(true), { defer: true }));
     // The curve itself does not change.
     createEffect(
       on(

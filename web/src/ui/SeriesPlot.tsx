@@ -4,7 +4,6 @@ import { createMemo, createSignal, type JSX } from 'solid-js';
 import type { CurveContext, CurveLine } from './curve';
 import { CurvePlot } from './CurvePlot';
 import { fixed } from './format';
-import type { Palette } from './palette';
 import { columnsOf, type Measure, type Points, readWords } from './series';
 
 /** The common axis. */
@@ -25,7 +24,6 @@ export function SeriesPlot(props: {
   along: Along;
   /** What is said while nothing is read; without, the last values. */
   help?: string | undefined;
-  palette: () => Palette;
 }): JSX.Element {
   const { measure, along } = props;
   const [pointed, setPointed] = createSignal<number>();
@@ -34,7 +32,6 @@ export function SeriesPlot(props: {
   const edges = props.lines.map((_, line) => [3 * line, 3 * line + 1] as const);
   const context: CurveContext = {
     ...along,
-    palette: () => props.palette(),
     lines: props.lines.flatMap((line) => {
       const edge = { label: '', color: line.color, isEdge: true, joinsGaps: true };
       return [edge, edge, { ...line, joinsGaps: true, hasPoints: hasBars }];

@@ -1,7 +1,7 @@
 // A plot of a computed curve: a uPlot in the page's colours with marks.
 
 import uPlot from 'uplot';
-import type { Palette } from './palette';
+import { palette, type Palette } from './palette';
 
 export interface CurveLine {
   readonly label: string;
@@ -32,7 +32,6 @@ export interface Rule {
 }
 
 export interface CurveContext {
-  readonly palette: () => Palette;
   readonly lines: readonly CurveLine[];
   /** Pairs of lines, upper one first, with the area between them filled in the colour of the upper one. */
   readonly bands?: readonly (readonly [number, number])[];
@@ -84,7 +83,7 @@ function drawShades(u: uPlot, context: CurveContext): void {
     for (const shade of context.shades?.() ?? []) {
       const from = u.valToPos(shade.from, 'x', true);
       const to = u.valToPos(shade.to, 'x', true);
-      ctx.fillStyle = context.palette()[shade.color];
+      ctx.fillStyle = palette()[shade.color];
       ctx.fillRect(from, u.bbox.top, to - from, u.bbox.height);
     }
   });
@@ -114,8 +113,8 @@ function drawRules(u: uPlot, context: CurveContext): void {
     ctx.font = `${11 * ratio}px system-ui, sans-serif`;
     for (const rule of context.rules?.() ?? []) {
       ctx.lineWidth = (rule.isStrong ? 2 : 1) * ratio;
-      ctx.strokeStyle = context.palette()[rule.color];
-      ctx.fillStyle = context.palette()[rule.color];
+      ctx.strokeStyle = palette()[rule.color];
+      ctx.fillStyle = palette()[rule.color];
       drawRule(u, rule, ctx, ratio);
     }
   });
@@ -126,7 +125,7 @@ function drawBars(u: uPlot, context: CurveContext): void {
     ctx.lineWidth = 1.5 * ratio;
     for (const [upper, lower] of context.bars ?? []) {
       const [highs, lows] = [u.data[upper + 1], u.data[lower + 1]];
-      ctx.strokeStyle = context.palette()[context.lines[upper]?.color ?? 'text'];
+      ctx.strokeStyle = palette()[context.lines[upper]?.color ?? 'text'];
       ctx.beginPath();
       u.data[0].forEach((x, index) => {
         const ends = [highs?.[index], lows?.[index]];
@@ -158,9 +157,9 @@ function widthPx({ ctx }: uPlot, texts: readonly string[]): number {
 
 export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
   const axis = {
-    stroke: () => context.palette().muted,
+    stroke: () => palette().muted,
     font: FONT,
-    grid: { stroke: () => context.palette().grid, width: 1 },
+    grid: { stroke: () => palette().grid, width: 1 },
     ticks: { show: false },
     gap: GAP_PX,
   };
@@ -197,7 +196,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
         {},
         ...context.lines.map((line) => ({
           label: line.label,
-          stroke: () => context.palette()[line.color],
+          stroke: () => palette()[line.color],
           width: line.isEdge ? 0 : 1.5,
           pxAlign: 0,
           spanGaps: line.joinsGaps ?? false,
@@ -207,7 +206,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
       ],
       bands: (context.bands ?? []).map(([upper, lower]) => ({
         series: [upper + 1, lower + 1],
-        fill: () => translucent(context.palette()[context.lines[upper]?.color ?? 'text']),
+        fill: () => translucent(palette()[context.lines[upper]?.color ?? 'text']),
       })),
       hooks: {
         drawAxes: [

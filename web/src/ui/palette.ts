@@ -1,7 +1,6 @@
 // Colours of the canvases, read from the style sheet so that each is defined once.
 
-import { createMemo, type Accessor } from 'solid-js';
-import type { Theme } from './theme';
+import { theme, type Theme } from './theme';
 
 const NAMES = [
   'floor',
@@ -56,9 +55,11 @@ function readPalette(): Palette {
   ) as Palette;
 }
 
-export function createPalette(theme: Accessor<Theme>): Accessor<Palette> {
-  return createMemo(() => {
-    theme();
-    return readPalette();
-  });
+let newest: { readonly theme: Theme; readonly palette: Palette } | undefined;
+
+/** The colours of the present theme; the same object until the theme changes. */
+export function palette(): Palette {
+  const now = theme();
+  if (newest?.theme !== now) newest = { theme: now, palette: readPalette() };
+  return newest.palette;
 }

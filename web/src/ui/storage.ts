@@ -24,7 +24,16 @@ export function remember(key: string, value: string): void {
   }
 }
 
-/** One of some values, as the user chose last; the first one until then. */
+function forget(key: string): void {
+  unstored.delete(key);
+  try {
+    localStorage.removeItem(`ferry.${key}`);
+  } catch {
+    // There is no storage to forget from.
+  }
+}
+
+/** One of some values, as the user chose last; the first one until then. Only the others are stored. */
 export function createChoice<const T extends string>(
   key: string,
   values: readonly [T, ...T[]],
@@ -35,7 +44,8 @@ export function createChoice<const T extends string>(
     value,
     (next) => {
       setValue(() => next);
-      remember(key, next);
+      if (next === values[0]) forget(key);
+      else remember(key, next);
     },
   ];
 }

@@ -1,20 +1,16 @@
-// Dark or light: the user's choice, otherwise the system's preference.
+// Dark or light: the user's choice, otherwise the system's preference. One for the page.
 
-import { createSignal, type Accessor } from 'solid-js';
+import { createSignal } from 'solid-js';
 import { recall, remember } from './storage';
 
 export type Theme = 'dark' | 'light';
 const KEY = 'theme';
 
-function stored(): Theme | undefined {
-  const value = recall(KEY);
-  return value === 'dark' || value === 'light' ? value : undefined;
-}
-
-export function createTheme(): { theme: Accessor<Theme>; toggle: () => void } {
+function createTheme() {
   const prefersDark = matchMedia('(prefers-color-scheme: dark)');
-  let chosen = stored();
-  const resolve = (): Theme => chosen ?? (prefersDark.matches ? 'dark' : 'light');
+  let chosen = recall(KEY);
+  const resolve = (): Theme =>
+    chosen === 'dark' || chosen === 'light' ? chosen : prefersDark.matches ? 'dark' : 'light';
   const [theme, setTheme] = createSignal(resolve());
   // Set before the signal changes, because canvases read their colours from the style sheet.
   const apply = (): void => {
@@ -32,3 +28,8 @@ export function createTheme(): { theme: Accessor<Theme>; toggle: () => void } {
     },
   };
 }
+
+let shared: ReturnType<typeof createTheme> | undefined;
+/** The first call sets the theme of the document. */
+export const theme = (): Theme => (shared ??= createTheme()).theme();
+export const toggleTheme = (): void => (shared ??= createTheme()).toggle();

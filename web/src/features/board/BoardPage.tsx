@@ -6,7 +6,6 @@ import { loggedOut } from '../../net/access';
 import type { ChallengeReport, Challenges, ChallengeSummary } from '../../net/protocol.gen';
 import { counted, fixed } from '../../ui/format';
 import { listen } from '../../ui/listen';
-import { createTheme } from '../../ui/theme';
 import { BoardChoices } from './BoardChoices';
 import { BoardTable } from './BoardTable';
 import {
@@ -30,7 +29,6 @@ import { addressOf } from '../../net/base';
 const LIST_MS = 15_000;
 
 export default function BoardPage(): JSX.Element {
-  createTheme();
   const list = createPoll<Challenges>('/api/challenges', LIST_MS);
   const all = (): readonly ChallengeSummary[] => list.data()?.challenges ?? [];
   const [chosen, setChosen] = createSignal(chosenIn(window.location.search));

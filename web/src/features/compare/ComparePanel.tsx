@@ -5,7 +5,6 @@ import type uPlot from 'uplot';
 import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
 import { errors_m, lastTick } from '../../lab/comparison';
 import { COMPARABLE } from '../../lab/offered';
-import { createPalette } from '../../ui/palette';
 import { controllerLabel } from '../../lab/parameters';
 import type { Branch, ComparisonMessage, ControllerName } from '../../net/protocol.gen';
 import type { CurveContext, CurveLine } from '../../ui/curve';
@@ -145,7 +144,6 @@ function Errors(
   },
 ): JSX.Element {
   const { lab } = props;
-  const palette = createPalette(() => props.theme());
   const threshold_cm = (): number => (lab.scene()?.parameters.threshold_m ?? 0) * CM;
   const shown_s = (): number => (lab.comparison.tick() - props.comparison.tick) * props.tick_s;
   const rules = createMemo(() => [
@@ -165,7 +163,6 @@ function Errors(
         : [{ label: controllerLabel(branch), color: name }];
     });
   const context: CurveContext = {
-    palette,
     lines,
     xRange: () => [
       0,
@@ -222,9 +219,7 @@ export default function ComparePanel(
         </Show>
       </div>
       <Show when={lab.comparison.shown()}>
-        {(comparison) => (
-          <Errors lab={lab} theme={props.theme} comparison={comparison()} tick_s={tick_s()} />
-        )}
+        {(comparison) => <Errors lab={lab} comparison={comparison()} tick_s={tick_s()} />}
       </Show>
     </div>
   );

@@ -51,7 +51,7 @@ it('shows rows as they come, those of the paper, curves and failures', async () 
   });
   server.lists({ evaluations: [summaryOf({ id: 'evaluation-2', stage: 'failed' }), running] });
   lab.address.show('evaluate');
-  show(() => <EvaluateView lab={lab} theme={() => 'dark'} />);
+  show(() => <EvaluateView lab={lab} />);
   const results = page.getByRole('region', { name: 'Results' });
   const rows = (): string[] =>
     [...(results.element() as HTMLElement).querySelectorAll('tbody tr')].map((row) =>

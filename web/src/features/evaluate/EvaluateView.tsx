@@ -3,7 +3,6 @@
 import { Show, createMemo, createSignal, type JSX } from 'solid-js';
 import { ForKeyed } from '../../ui/ForKeyed';
 import { Panel } from '../../ui/Panel';
-import type { Theme } from '../../ui/theme';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
 import { episodesDone, episodesInAll, numberOf, stageWords, subject } from './progress';
@@ -38,10 +37,7 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
   );
 }
 
-export default function EvaluateView(props: {
-  lab: Addressed & Session & Trial;
-  theme: () => Theme;
-}): JSX.Element {
+export default function EvaluateView(props: { lab: Addressed & Session & Trial }): JSX.Element {
   const all = (): readonly EvaluationSummary[] => props.lab.catalog.evaluations() ?? [];
   /** The chosen evaluation, otherwise the newest. */
   const shown = createMemo(() => all().find(({ id }) => id === chosen()) ?? all().at(-1));
@@ -76,7 +72,7 @@ export default function EvaluateView(props: {
           </section>
         }
       >
-        {(summary) => <EvaluationPanel lab={props.lab} summary={summary()} theme={props.theme} />}
+        {(summary) => <EvaluationPanel lab={props.lab} summary={summary()} />}
       </Show>
     </main>
   );

@@ -5,7 +5,6 @@ import { operatorOnly } from '../../lab/operatorOnly';
 import { createAttempt } from '../../ui/attempt';
 import { roughly } from '../../ui/format';
 import { SmallButton } from '../../ui/SmallButton';
-import type { Theme } from '../../ui/theme';
 import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
@@ -58,7 +57,6 @@ function Progress(props: {
 export function EvaluationPanel(props: {
   lab: Addressed & Session & Trial;
   summary: EvaluationSummary;
-  theme: () => Theme;
 }): JSX.Element {
   const { lab } = props;
   const report = createReport(() => props.summary);
@@ -99,7 +97,7 @@ export function EvaluationPanel(props: {
       <Show when={report()}>
         {(now) => (
           <Show when={props.summary.query.vary.length > 0 && props.summary.id} keyed>
-            <RobustnessPlots summary={props.summary} rows={now().rows} theme={props.theme} />
+            <RobustnessPlots summary={props.summary} rows={now().rows} />
           </Show>
         )}
       </Show>

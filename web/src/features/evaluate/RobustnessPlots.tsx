@@ -4,9 +4,7 @@ import { For, Index, Show, createMemo, type JSX } from 'solid-js';
 import { Keys } from '../../ui/CurvePlot';
 import type { CurveLine } from '../../ui/curve';
 import { counted, fixed } from '../../ui/format';
-import { createPalette } from '../../ui/palette';
 import { type Along, SeriesPlot } from '../../ui/SeriesPlot';
-import type { Theme } from '../../ui/theme';
 import type { EvaluationSummary, Row } from '../../net/protocol.gen';
 import {
   gridOf,
@@ -108,9 +106,7 @@ function Grid(props: { picture: Picture; line: Line; names: readonly string[] })
 export function RobustnessPlots(props: {
   summary: EvaluationSummary;
   rows: readonly Row[];
-  theme: () => Theme;
 }): JSX.Element {
-  const palette = createPalette(() => props.theme());
   const pictures = createMemo(() => picturesOf(props.summary.cells, props.rows));
   const names = createMemo(() => props.summary.query.vary.map(({ name }) => name));
   return (
@@ -146,7 +142,6 @@ export function RobustnessPlots(props: {
                     lines={styled(picture())}
                     points={pointsOf(measure, picture())}
                     along={alongParameter(names()[0] ?? '', picture)}
-                    palette={palette}
                   />
                 )}
               </For>

@@ -15,7 +15,7 @@ async function open() {
   const { lab, server } = fakeLab();
   show(() => (
     <>
-      <Panel lab={lab} theme={() => 'dark'} tools={document.createElement('div')} />
+      <Panel lab={lab} tools={document.createElement('div')} />
       <PlaceNotice lab={lab} place="playback" />
     </>
   ));

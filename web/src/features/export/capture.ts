@@ -3,22 +3,18 @@
 import { createSignal, untrack, type Accessor } from 'solid-js';
 import { messageOf } from '../../ui/attempt';
 import { download, pngOfCanvas } from '../../ui/download';
-import type { Palette } from '../../ui/palette';
 import type { ViewPicture } from '../../plan/viewPicture';
 import type { Notices, Trial } from '../../lab/slices';
 import { caption, createSheet, fileName, fillSheet } from './picture';
 import { ownVideoType, record, videoEnding, type Recording } from './video';
+import { palette } from '../../ui/palette';
 
 /** Pixels of a picture per CSS pixel, at least. */
 const PICTURE_RATIO = 2;
 
 export type Capture = ReturnType<typeof createCapture>;
 
-export function createCapture(
-  lab: Trial & Notices,
-  view: Accessor<ViewPicture | undefined>,
-  palette: Accessor<Palette>,
-) {
+export function createCapture(lab: Trial & Notices, view: Accessor<ViewPicture | undefined>) {
   const type = ownVideoType();
   const [recorded_s, setRecorded] = createSignal<number>();
   const [saved, setSaved] = createSignal<string>();

@@ -1,10 +1,10 @@
 // A picture of the view with a caption below it.
 
 import { phaseName } from '../../words/facts';
-import type { Palette } from '../../ui/palette';
 import type { ViewPicture } from '../../plan/viewPicture';
 import type { StateMessage } from '../../net/protocol.gen';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { Palette } from '../../ui/palette';
 
 type Moment = Pick<StateMessage, 'controller' | 'sim_time_s' | 'goal_m' | 'phase'>;
 

@@ -1,6 +1,5 @@
 // Draws the magnetic field layer.
 
-import type { Palette } from '../../ui/palette';
 import type { Plane } from '../../net/protocol.gen';
 import { pxFromWorld, type View } from '../../plan/transform';
 import { HALF_SIDE_M, planeArrows, planePixels, SIDE_PX } from './plane';
@@ -8,6 +7,7 @@ import { type Arrow, arrowPath } from '../../plan/arrows';
 import type { Ramp } from '../../plan/colourRamp';
 import { imageOf } from '../../plan/pixels';
 import type { Ctx } from '../../plan/sheet';
+import type { Palette } from '../../ui/palette';
 
 const ARROW_ALPHA = 0.6;
 

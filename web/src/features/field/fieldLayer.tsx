@@ -8,13 +8,14 @@ import { FieldLegend } from './FieldLegend';
 import { createFieldPicture, drawField } from './drawPlane';
 import { HALF_SIDE_M, planeQuery } from './plane';
 import type { Session, Trial } from '../../lab/slices';
+import { palette } from '../../ui/palette';
 
 export const FIELD_LAYER: MapLayer = {
   id: 'field',
   label: 'Field and pull',
   swatch: ['field-low', 'field-middle', 'field-high'],
   group: 'Motion',
-  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
+  create: ({ lab, isShown }: LayerContext<Session & Trial>) => {
     const answer = createAnswer<PlaneQuery, Plane>('/api/magnetics/plane', () => {
       const parameters = lab.edits.shown();
       const asks = isShown() && lab.connection().kind === 'live';

@@ -17,9 +17,7 @@ import {
   type Side,
   SIDES,
 } from './magnet';
-import { createPalette } from '../../ui/palette';
 import type { Parameters, PullCurve, ReachCurve } from '../../net/protocol.gen';
-import type { Theme } from '../../ui/theme';
 import { CurvePlot } from '../../ui/CurvePlot';
 import type { CurveContext, Rule } from '../../ui/curve';
 import { MagnetControls } from './MagnetControls';
@@ -38,15 +36,10 @@ function upright(
   return at_m === undefined ? [] : [{ ...look, axis: 'x', at: scale * at_m }];
 }
 
-function Magnet(props: {
-  lab: Session & Trial;
-  theme: () => Theme;
-  parameters: Parameters;
-}): JSX.Element {
+function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.Element {
   const { lab } = props;
   const [side, setSide] = createSignal<Side>('x');
   const [pointed, setPointed] = createSignal<string>();
-  const palette = createPalette(() => props.theme());
   const direction_rad = createMemo(() => {
     const state = lab.state();
     return state ? directionOf(side(), state.tool_m, state.bead_m) : 0;
@@ -78,7 +71,6 @@ function Magnet(props: {
   const liftOff_m = (): number | undefined => reach().data?.lift_off_m;
 
   const pullContext: CurveContext = {
-    palette,
     lines: [
       { label: 'lift', color: 'text' },
       { label: 'pull', color: 'tool' },
@@ -114,7 +106,6 @@ function Magnet(props: {
   });
 
   const reachContext: CurveContext = {
-    palette,
     lines: [
       { label: 'outer end', color: 'tool' },
       { label: 'inner end', color: 'tool' },
@@ -209,7 +200,7 @@ export default function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Ele
       when={props.lab.edits.shown()}
       fallback={<p class="placeholder">Waiting for the parameters.</p>}
     >
-      {(parameters) => <Magnet lab={props.lab} theme={props.theme} parameters={parameters()} />}
+      {(parameters) => <Magnet lab={props.lab} parameters={parameters()} />}
     </Show>
   );
 }

@@ -1,7 +1,6 @@
 // Draws blocks and rectangles of the camera image, and the observed area.
 
 import type { PixelBlock } from '../../lab/homography';
-import type { Palette } from '../../ui/palette';
 import { seenCells } from '../../lab/obstacleMap';
 import type { BlocksLayer, OverlayMessage, Rect, SeenMessage } from '../../net/protocol.gen';
 import { rgb } from '../../plan/colourRamp';
@@ -9,6 +8,7 @@ import type { BasePicture } from '../../plan/layer';
 import { gridPixels, imageOf, type Rgba } from '../../plan/pixels';
 import { pxFromWorld, pxRect, type View } from '../../plan/transform';
 import type { Ctx } from '../../plan/sheet';
+import type { Palette } from '../../ui/palette';
 
 const UNKNOWN_ALPHA = 130;
 const OBSTACLE_ALPHA = 120;

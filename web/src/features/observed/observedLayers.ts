@@ -4,6 +4,7 @@ import { createMemo } from 'solid-js';
 import { drawn, type LayerContext, type MapLayer } from '../../plan/layer';
 import { createSeen, drawBlocks, drawRectangles, drawSeen } from './drawObserved';
 import type { Pictures } from '../../lab/slices';
+import { palette } from '../../ui/palette';
 
 const OF_CAMERA = { group: 'Camera', isSensed: true } as const;
 
@@ -12,7 +13,7 @@ export const SEEN_LAYER: MapLayer = {
   id: 'seen',
   label: 'Seen so far',
   swatch: ['unseen', 'sensed'],
-  create: ({ lab, palette, isShown }: LayerContext<Pictures>) => {
+  create: ({ lab, isShown }: LayerContext<Pictures>) => {
     const seen = createMemo(() => {
       const message = isShown() ? lab.obstacleMap() : undefined;
       return message && createSeen(message, palette());

@@ -3,7 +3,6 @@
 import { createEffect, createMemo, createSignal, onMount, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
 import { onSize } from '../../ui/size';
-import type { Palette } from '../../ui/palette';
 import { drawBorder, drawFloor, wallPath } from '../../plan/drawMap';
 import { contextOf } from '../../plan/sheet';
 import { fitView, type View } from '../../plan/transform';
@@ -15,6 +14,7 @@ import { TERMS } from '../../lab/terms';
 import type { Vec2 } from '../../lab/geometry';
 import { shownWalls } from '../../lab/sight';
 import type { ByHand, Trial } from '../../lab/slices';
+import { palette } from '../../ui/palette';
 import '../../ui/plot.css';
 
 const INSETS = { left: 3, right: 3, top: 3, bottom: 3 };
@@ -25,7 +25,6 @@ export function LocusPlot(props: {
   lab: Trial & ByHand;
   figure: Figure;
   sample: Sample | undefined;
-  palette: () => Palette;
 }): JSX.Element {
   const { lab, figure } = props;
   let canvas!: HTMLCanvasElement;
@@ -52,13 +51,20 @@ export function LocusPlot(props: {
     onSize(canvas, setSize);
     createEffect(() => {
       const [now, workspace, outlines] = [view(), lab.scene()?.workspace, walls()];
-      const [{ sample }, palette] = [props, props.palette()];
+      const [{ sample }, colours] = [props, palette()];
       const ctx = contextOf(canvas, size());
       if (!now || !workspace || !outlines || !sample || !ctx) return;
-      drawFloor(ctx, workspace, now, palette);
+      drawFloor(ctx, workspace, now, colours);
       const goal_m = lab.goal();
-      drawLocus(ctx, { view: now, palette, walls: outlines, sample, goal_m, marked: marked() });
-      drawBorder(ctx, workspace, now, palette);
+      drawLocus(ctx, {
+        view: now,
+        palette: colours,
+        walls: outlines,
+        sample,
+        goal_m,
+        marked: marked(),
+      });
+      drawBorder(ctx, workspace, now, colours);
     });
   });
 

@@ -11,21 +11,17 @@ import { LOCUS_LETTER, PARTS } from './parts';
 import { Rotation } from './rotation';
 import { csvOf, type Sample, type WindowChoice, WINDOWS } from './sample';
 import { clock } from '../../ui/format';
-import { createPalette, type Palette } from '../../ui/palette';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import { shownWalls } from '../../lab/sight';
 import type { ByHand, Events, Notices, Trial } from '../../lab/slices';
 import { SmallButton } from '../../ui/SmallButton';
+import { palette } from '../../ui/palette';
 import './plots.css';
 
 const FILES = ['CSV', 'PNG', 'SVG'] as const;
 
 /** Time window and files, in the tab bar. */
-function Tools(props: {
-  lab: Trial & Notices & ByHand;
-  figure: Figure;
-  palette: () => Palette;
-}): JSX.Element {
+function Tools(props: { lab: Trial & Notices & ByHand; figure: Figure }): JSX.Element {
   const { lab, figure } = props;
   const save = async (kind: (typeof FILES)[number]): Promise<void> => {
     const [sample, scene, state] = [figure.take(), lab.scene(), lab.state()];
@@ -40,7 +36,7 @@ function Tools(props: {
     }
     const svg = figureSvg({
       title: `Ferry: map ${scene.map}, ${state.controller}, seed ${scene.seed}, ${clock(sample.from_s)} to ${clock(sample.to_s)}`,
-      palette: props.palette(),
+      palette: palette(),
       sample,
       threshold_m: scene.parameters.threshold_m,
       workspace: scene.workspace,
@@ -90,7 +86,6 @@ function Tools(props: {
 
 function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.Element {
   const { lab } = props;
-  const palette = createPalette(() => props.theme());
   const figure = createFigure(lab);
   let sample: Sample | undefined;
   const samples = [...PARTS, LOCUS_LETTER].map(() => createSignal<Sample>());
@@ -113,7 +108,7 @@ function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.E
   return (
     <>
       <Portal mount={props.tools}>
-        <Tools lab={lab} figure={figure} palette={palette} />
+        <Tools lab={lab} figure={figure} />
       </Portal>
       <div class="plots">
         <For each={PARTS}>
@@ -122,12 +117,11 @@ function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.E
               part={part}
               figure={figure}
               sample={samples[index()]?.[0]()}
-              palette={palette}
               threshold_m={lab.scene()?.parameters.threshold_m}
             />
           )}
         </For>
-        <LocusPlot lab={lab} figure={figure} sample={samples.at(-1)?.[0]()} palette={palette} />
+        <LocusPlot lab={lab} figure={figure} sample={samples.at(-1)?.[0]()} />
       </div>
     </>
   );

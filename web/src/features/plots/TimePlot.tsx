@@ -4,7 +4,6 @@ import { createMemo, type JSX } from 'solid-js';
 import { CurvePlot } from '../../ui/CurvePlot';
 import type { CurveContext } from '../../ui/curve';
 import { clock, fixed } from '../../ui/format';
-import type { Palette } from '../../ui/palette';
 import type { Figure } from './figure';
 import { linesOf, type Part, partRange, rulesOf } from './parts';
 import type { Sample } from './sample';
@@ -18,7 +17,6 @@ export function TimePlot(props: {
   part: Part;
   figure: Figure;
   sample: Sample | undefined;
-  palette: () => Palette;
   /** Threshold T. */
   threshold_m: number | undefined;
 }): JSX.Element {
@@ -40,7 +38,6 @@ export function TimePlot(props: {
     return `${part.title} over time, at ${clock(times()[index] ?? 0)}: ${read.join(', ')}`;
   };
   const context: CurveContext = {
-    palette: () => props.palette(),
     lines: part.lines,
     xRange: () => [props.sample?.from_s ?? 0, props.sample?.to_s ?? 1],
     yRange: (max, min) => partRange(part, min, max, props.threshold_m),

@@ -1,6 +1,5 @@
 // Draws the locus: trails of tool and bead, the goal, the walls, the disturbances.
 
-import type { Palette } from '../../ui/palette';
 import { pxFromWorld, type View } from '../../plan/transform';
 import type { Sample } from './sample';
 import { distance, type Vec2 } from '../../lab/geometry';
@@ -8,6 +7,7 @@ import { drawGoal } from '../../plan/drawMoving';
 import { circle } from '../../plan/shapes';
 import { drawTrail } from '../../plan/drawTrail';
 import type { Ctx } from '../../plan/sheet';
+import type { Palette } from '../../ui/palette';
 
 const DOT_PX = 3;
 const STRUCK_PX = 3.5;

@@ -1,6 +1,5 @@
 import { describe, expect, it } from 'vitest';
 import { History } from '../../lab/history';
-import type { Palette } from '../../ui/palette';
 import type { EventMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
 import { eventAt } from '../../lab/testingFacts';
@@ -9,6 +8,7 @@ import { figureSvg, roundTicks } from './figureSvg';
 import { axisRange } from './parts';
 import { Rotation } from './rotation';
 import { csvOf, nearestIndex, shownWindow, spansOf, takeSample, thinnedIndices } from './sample';
+import type { Palette } from '../../ui/palette';
 
 const disturbanceAt = (tick: number): EventMessage => eventAt(tick, 'disturbance');
 

@@ -1,12 +1,12 @@
 // The figure as an SVG file: the same six parts, independent of the screen size. Pure.
 
 import { fixed } from '../../ui/format';
-import type { Palette } from '../../ui/palette';
 import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
 import { fitView, pxFromWorld } from '../../plan/transform';
 import { type Line, linesOf, LOCUS_LETTER, type Part, partRange, PARTS, rulesOf } from './parts';
 import type { Sample } from './sample';
 import type { Vec2 } from '../../lab/geometry';
+import type { Palette } from '../../ui/palette';
 
 export interface FigureFacts {
   /** One line about the trial. */

@@ -2,8 +2,8 @@
 
 import type { Column } from '../../lab/history';
 import type { Rule } from '../../ui/curve';
-import type { Palette } from '../../ui/palette';
 import type { Sample } from './sample';
+import type { Palette } from '../../ui/palette';
 
 export interface Line {
   readonly column: Column;

@@ -36,7 +36,7 @@ function open(...names: string[]) {
     };
   }
   fakeServer(answers);
-  show(() => <RecordingsView theme={() => 'dark'} session="other" tick={0} />);
+  show(() => <RecordingsView session="other" tick={0} />);
 }
 
 it('names a recording, also on a phone', async () => {

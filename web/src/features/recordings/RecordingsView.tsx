@@ -1,6 +1,6 @@
 // The list of recordings, and the one that is open in Rerun's viewer.
 
-import { Show, createSignal, type Accessor, type JSX } from 'solid-js';
+import { Show, createSignal, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
 import { nameOf } from './names';
 import { createRecordings } from './recordings';
@@ -9,12 +9,10 @@ import { createAttempt } from '../../ui/attempt';
 import { ForKeyed } from '../../ui/ForKeyed';
 import { Panel } from '../../ui/Panel';
 import { SmallButton } from '../../ui/SmallButton';
-import type { Theme } from '../../ui/theme';
 import { ViewerFrame } from './ViewerFrame';
 import './recordings.css';
 
 export default function RecordingsView(props: {
-  theme: Accessor<Theme>;
   /** The session of the page. */
   session: string;
   /** Its tick: it is recorded while it moves. */
@@ -109,7 +107,6 @@ export default function RecordingsView(props: {
           <ViewerFrame
             file={file}
             name={nameOf(newest(file.id) ?? file)}
-            theme={props.theme}
             onAgain={() => setOpen({ ...file, ...newest(file.id) })}
             onClose={close}
           />

@@ -1,30 +1,29 @@
 // Rerun's viewer with one recording, in a frame. Only the frame's page may compile WebAssembly; this page may not.
 
-import { Show, createEffect, on, type Accessor, type JSX } from 'solid-js';
+import { Show, createEffect, on, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
 import { label } from './recordings';
 import { SmallButton } from '../../ui/SmallButton';
-import type { Theme } from '../../ui/theme';
 import { type ThemeMessage, viewerAddress } from './viewerMessages';
+import { theme, type Theme } from '../../ui/theme';
 
 const LEAVE_KEY = 'F6';
 
 export function ViewerFrame(props: {
   file: RecordingFile;
   name: string;
-  theme: Accessor<Theme>;
   onAgain: () => void;
   onClose: () => void;
 }): JSX.Element {
   let frame!: HTMLIFrameElement;
   let closer!: HTMLButtonElement;
   // The address holds the first theme. Later themes are sent as messages, because a new address would reload the viewer.
-  const address = viewerAddress(props.file.id, props.theme());
+  const address = viewerAddress(props.file.id, theme());
   const sendTheme = (theme: Theme): void => {
     const message: ThemeMessage = { type: 'theme', theme };
     frame.contentWindow?.postMessage(message, location.origin);
   };
-  createEffect(on(props.theme, sendTheme, { defer: true }));
+  createEffect(on(theme, sendTheme, { defer: true }));
   // The viewer uses the Tab key itself, so keyboard users need another key to leave it.
   const listenForLeaving = (): void => {
     const leave = (event: KeyboardEvent): void => {

@@ -1,7 +1,7 @@
 // Messages from the laboratory to the viewer's page in its frame.
 
-import type { Theme } from '../../ui/theme';
 import { addressOf } from '../../net/base';
+import type { Theme } from '../../ui/theme';
 
 export interface ThemeMessage {
   readonly type: 'theme';

@@ -4,9 +4,9 @@ import { createEffect, createMemo, on } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import type { LayerContext, MapLayer } from '../../plan/layer';
 import { pxFromWorld, type View } from '../../plan/transform';
-import type { Palette } from '../../ui/palette';
 import { cellAt, type Look, looksOf, rowsOf } from './cells';
 import * as store from './store';
+import type { Palette } from '../../ui/palette';
 
 const FAINTEST = 0.15;
 const DENSEST = 0.55;

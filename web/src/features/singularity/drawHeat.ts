@@ -1,6 +1,5 @@
 // Draws the singularity layer: smooth colours, and hatching where the arm may not go.
 
-import type { Palette } from '../../ui/palette';
 import type { WorkspaceMap } from '../../net/protocol.gen';
 import type { BasePicture } from '../../plan/layer';
 import { imageOf } from '../../plan/pixels';
@@ -8,6 +7,7 @@ import { pxFromWorld } from '../../plan/transform';
 import { heatRamp } from '../../plan/colourRamp';
 import { heatPixels, refusedRuns, type Run } from './heat';
 import type { Ctx } from '../../plan/sheet';
+import type { Palette } from '../../ui/palette';
 
 const HATCH_PX = 7;
 

@@ -8,6 +8,7 @@ import { HeatLegend } from './HeatLegend';
 import { createHeat, drawHeat } from './drawHeat';
 import { workspaceQuery } from './heat';
 import type { Session, Trial } from '../../lab/slices';
+import { palette } from '../../ui/palette';
 
 export const SINGULARITY_LAYER: MapLayer = {
   id: 'singularity',
@@ -18,7 +19,7 @@ export const SINGULARITY_LAYER: MapLayer = {
     lab.scene()?.positioner === 'planar_stage'
       ? 'The planar stage has no arm, so it has no singularities.'
       : undefined,
-  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
+  create: ({ lab, isShown }: LayerContext<Session & Trial>) => {
     const question = createMemo<WorkspaceQuery | undefined>(() => {
       const [scene, parameters] = [lab.scene(), lab.edits.shown()];
       return isShown() && scene && parameters ? workspaceQuery(scene, parameters) : undefined;

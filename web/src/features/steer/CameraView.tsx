@@ -11,6 +11,7 @@ import { circle } from '../../plan/shapes';
 import { contextOf } from '../../plan/sheet';
 import { ViewCanvas } from '../../plan/ViewCanvas';
 import type { Size } from '../../ui/size';
+import { palette } from '../../ui/palette';
 import './steer.css';
 
 /** The square of the picture inside the canvas. */
@@ -32,11 +33,11 @@ function viewThrough(homography: Homography, size: Size): TableView {
 }
 
 export function CameraView(
-  props: Pick<SurfaceProps, 'lab' | 'interaction' | 'palette' | 'helpId' | 'onPicture'> & {
+  props: Pick<SurfaceProps, 'lab' | 'interaction' | 'helpId' | 'onPicture'> & {
     notices: Notices;
   },
 ): JSX.Element {
-  const { lab, interaction, palette } = props;
+  const { lab, interaction } = props;
   const bitmap = createCameraBitmap({ ...props.notices, camera: lab.camera });
   const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });

@@ -6,7 +6,6 @@ import type { TrainingCells, TrainingFrame } from '../../net/protocol.gen';
 import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
 import { counted, fixed } from '../../ui/format';
-import type { Palette } from '../../ui/palette';
 import { alongUpdates, rangeAround } from './curves';
 import { fanAt } from './grid';
 
@@ -22,14 +21,12 @@ export function CellPanel(props: {
   count: number;
   /** Updates at the end of the training. */
   total: number;
-  palette: () => Palette;
 }): JSX.Element {
   const [pointed, setPointed] = createSignal<number>();
   const fan = createMemo(() => fanAt(props.frames, props.cell));
   const quantile = (index: number): readonly number[] => fan().quantiles[index] ?? [];
   const context: CurveContext = {
     ...alongUpdates(() => props.total),
-    palette: () => props.palette(),
     lines: [
       { ...LINE, label: '.95', isEdge: true },
       { ...LINE, label: '.05', isEdge: true },

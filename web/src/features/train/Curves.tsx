@@ -3,7 +3,6 @@
 import { For, Show, type JSX } from 'solid-js';
 import type { TrainingPoint } from '../../net/protocol.gen';
 import { Keys } from '../../ui/CurvePlot';
-import type { Palette } from '../../ui/palette';
 import { SeriesPlot } from '../../ui/SeriesPlot';
 import { alongUpdates, firstWords, type Kind, KINDS } from './curves';
 
@@ -25,7 +24,6 @@ const STYLES = [
 export function Curves(props: {
   /** One or two. Their number does not change. */
   curves: readonly Curve[];
-  palette: () => Palette;
 }): JSX.Element {
   const lines = () =>
     STYLES.slice(0, props.curves.length).map((style, index) => ({
@@ -57,7 +55,6 @@ export function Curves(props: {
               )}
               along={alongUpdates(total)}
               help={help(kind)}
-              palette={props.palette}
             />
           )}
         </For>

@@ -8,7 +8,6 @@ import type { PolicySummary } from '../../net/protocol.gen';
 import { createAttempt } from '../../ui/attempt';
 import { FileButton } from '../../ui/FileButton';
 import { ForKeyed } from '../../ui/ForKeyed';
-import type { Palette } from '../../ui/palette';
 import { Panel } from '../../ui/Panel';
 import { Heads } from '../../ui/Table';
 import { PolicyRow } from './PolicyRow';
@@ -28,7 +27,6 @@ const ENDING = '.safetensors';
 
 export function PoliciesPanel(props: {
   lab: Session & Trial;
-  palette: () => Palette;
   onUse: (policy: PolicySummary, maps: readonly string[]) => void;
 }): JSX.Element {
   const { lab } = props;
@@ -74,7 +72,6 @@ export function PoliciesPanel(props: {
                   policy={policy()}
                   isUsed={used() === policy().name}
                   attempt={attempt}
-                  palette={props.palette}
                   onUse={() => {
                     props.onUse(policy(), policy().maps);
                   }}

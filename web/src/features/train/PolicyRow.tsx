@@ -5,7 +5,6 @@ import type { PolicyOrigin, PolicySummary } from '../../net/protocol.gen';
 import type { Attempt } from '../../ui/attempt';
 import { ConfirmButton } from '../../ui/ConfirmButton';
 import { roughly } from '../../ui/format';
-import type { Palette } from '../../ui/palette';
 import { SmallButton } from '../../ui/SmallButton';
 import { createRenaming, TitleForm } from '../../ui/TitleForm';
 import { operatorOnly } from '../../lab/operatorOnly';
@@ -25,7 +24,6 @@ interface RowProps {
   readonly isUsed: boolean;
   readonly attempt: Attempt;
   readonly onUse: () => void;
-  readonly palette: () => Palette;
 }
 
 function originWords({ query, elapsed_s }: PolicyOrigin): string {
@@ -56,7 +54,6 @@ function Origin(props: RowProps & { origin: PolicyOrigin }): JSX.Element {
               isOver: true,
             },
           ]}
-          palette={props.palette}
         />
       </Show>
     </details>

@@ -18,7 +18,7 @@ it('explains itself, and refuses a wrong name or setting at its field', async ()
   const [isOpen, setOpen] = createSignal(true);
   show(() => (
     <Show when={isOpen()}>
-      <TrainView lab={lab} theme={() => 'dark'} onEvaluate={() => undefined} />
+      <TrainView lab={lab} onEvaluate={() => undefined} />
     </Show>
   ));
   await expect
@@ -94,7 +94,7 @@ it('shows two trainings beside each other, and what can be done with each', asyn
     'POST /api/trainings/training-1/pause': () => refusal('too late'),
   });
   server.lists({ trainings: [one, two], policies: [] });
-  show(() => <TrainView lab={lab} theme={() => 'dark'} onEvaluate={() => undefined} />);
+  show(() => <TrainView lab={lab} onEvaluate={() => undefined} />);
   const entries = page.getByRole('listitem').filter({ has: page.getByRole('progressbar') });
   const names = () => entries.elements().map((entry) => entry.querySelector('strong')?.textContent);
   await expect.poll(names).toEqual(['two', 'my-posts']);

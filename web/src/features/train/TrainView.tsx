@@ -11,9 +11,7 @@ import type {
   TrainingSummary,
 } from '../../net/protocol.gen';
 import { ForKeyed } from '../../ui/ForKeyed';
-import { createPalette } from '../../ui/palette';
 import { Panel } from '../../ui/Panel';
-import type { Theme } from '../../ui/theme';
 import { colourRange } from './colourRange';
 import { Curves } from './Curves';
 import { withLast } from './curves';
@@ -39,12 +37,10 @@ function bringIntoView(view: HTMLElement, list: HTMLElement): void {
 
 export default function TrainView(props: {
   lab: Addressed & Session & Trial & Notices;
-  theme: () => Theme;
   /** Opens the view Evaluate with a policy, by its reference, and a map. */
   onEvaluate: (policy: string, map: string) => void;
 }): JSX.Element {
   const { lab } = props;
-  const palette = createPalette(() => props.theme());
   const all = (): readonly TrainingSummary[] => lab.catalog.trainings() ?? [];
   const byId = (id: string | undefined): TrainingSummary | undefined =>
     all().find((one) => one.id === id);
@@ -160,7 +156,6 @@ export default function TrainView(props: {
                       sentence={stageSentence(summary(), before(summary()))}
                       range={range()}
                       isGrowing={watched().some(isActive)}
-                      palette={palette}
                     />
                   )}
                 </ForKeyed>
@@ -185,13 +180,12 @@ export default function TrainView(props: {
                     total: summary.updates_total,
                     isOver: !isActive(summary),
                   }))}
-                  palette={palette}
                 />
               </Show>
             </Panel>
             <FoldedIntro />
           </Show>
-          <PoliciesPanel lab={lab} palette={palette} onUse={use} />
+          <PoliciesPanel lab={lab} onUse={use} />
         </div>
       </Show>
     </main>

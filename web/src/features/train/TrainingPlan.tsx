@@ -15,9 +15,9 @@ import { contextOf } from '../../plan/sheet';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
 import { onSize, type Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
-import type { Palette } from '../../ui/palette';
 import { drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
 import { around, cellAt, grown, valueCells } from './grid';
+import { palette } from '../../ui/palette';
 
 const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
 const STEPS_PER_S = 14;
@@ -27,7 +27,6 @@ const REST_STEPS = 14;
 interface PlanProps {
   readonly label: string;
   readonly helpId: string;
-  readonly palette: Palette;
   /** Undefined until the server has sent it. */
   readonly map: MapCheck | undefined;
   readonly cells: TrainingCells | undefined;
@@ -63,29 +62,30 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
     return now && wallPath(props.map?.outlines ?? [], now);
   });
   const values = createMemo(() => {
-    const { cells, frame, palette, range } = props;
-    return cells && frame && createValues(valueCells(cells, frame), palette, range);
+    const { cells, frame, range } = props;
+    return cells && frame && createValues(valueCells(cells, frame), palette(), range);
   });
   onMount(() => {
     onSize(base, setSize);
     createEffect(() => {
       const [now, px, rect, outlines] = [view(), size(), workspace(), walls()];
-      const { palette, layers, cells, frame, chosen } = props;
+      const { layers, cells, frame, chosen } = props;
       const ctx = px && contextOf(base, px);
       if (!ctx || !now || !rect || !outlines) return;
       drawBase(ctx, {
-        ...{ view: now, palette, workspace: rect, walls: outlines, layers },
+        ...{ view: now, palette: palette(), workspace: rect, walls: outlines, layers },
         ...{ cells, frame, chosen, values: values() },
       });
     });
     createEffect(() => {
       const [now, px] = [view(), size()];
-      const { palette, cells, frame } = props;
+      const { cells, frame } = props;
       if (!now || !px) return;
+      const base = { view: now, palette: palette() };
       const isShown = props.layers.episodes && cells && frame;
       const draw = (steps: number): void => {
         const ctx = contextOf(moving, px);
-        if (ctx && isShown) drawEpisodes(ctx, { view: now, palette }, cells, frame, steps);
+        if (ctx && isShown) drawEpisodes(ctx, base, cells, frame, steps);
       };
       if (!isShown || isStill()) {
         draw(Infinity);

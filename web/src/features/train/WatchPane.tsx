@@ -19,7 +19,6 @@ import type {
 import { isActive, progressWords } from '../../lab/trainingStage';
 import { createAttempt } from '../../ui/attempt';
 import { counted } from '../../ui/format';
-import type { Palette } from '../../ui/palette';
 import { SmallButton } from '../../ui/SmallButton';
 import { IS_TOUCH } from '../../ui/touch';
 import { CellPanel } from './CellPanel';
@@ -42,7 +41,6 @@ export function WatchPane(props: {
   range: readonly [number, number] | undefined;
   /** Whether more value maps may widen the range. */
   isGrowing: boolean;
-  palette: () => Palette;
 }): JSX.Element {
   const help = createUniqueId();
   const [map, setMap] = createSignal<MapCheck>();
@@ -112,7 +110,6 @@ export function WatchPane(props: {
         <TrainingPlan
           label={`Plan of ${props.summary.query.map} with the values of ${name()}`}
           helpId={help}
-          palette={props.palette()}
           map={map()}
           cells={maps.cells()}
           frame={frame()}
@@ -189,7 +186,6 @@ export function WatchPane(props: {
               frames={read()}
               count={count()}
               total={props.summary.updates_total}
-              palette={props.palette}
             />
           </Show>
         )}

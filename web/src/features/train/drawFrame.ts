@@ -12,8 +12,8 @@ import { drawFloor, drawOutlines } from '../../plan/drawMap';
 import { drawGoal } from '../../plan/drawMoving';
 import { drawArrows, drawColours, type Values } from '../../plan/drawValues';
 import { pxFromWorld, type View } from '../../plan/transform';
-import type { Palette } from '../../ui/palette';
 import { placeAfter, startsThat } from './grid';
+import type { Palette } from '../../ui/palette';
 
 type Ctx = CanvasRenderingContext2D;
 

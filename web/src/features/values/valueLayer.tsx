@@ -9,6 +9,7 @@ import { ValueLegend } from './ValueLegend';
 import { createValues, drawArrows, drawColours } from '../../plan/drawValues';
 import { valueKey } from './value';
 import type { Pictures, Session, Trial } from '../../lab/slices';
+import { palette } from '../../ui/palette';
 
 const REQUESTS_PER_S = 4;
 
@@ -17,7 +18,7 @@ export const VALUE_LAYER: MapLayer = {
   label: 'Value',
   swatch: ['heat-low', 'heat-middle', 'heat-high'],
   group: 'RL',
-  create: ({ lab, palette, isShown }: LayerContext<Session & Trial & Pictures>) => {
+  create: ({ lab, isShown }: LayerContext<Session & Trial & Pictures>) => {
     const key = createMemo(() => {
       const [scene, goal_m] = [lab.scene(), lab.goal()];
       return scene && goal_m && isShown() ? valueKey(scene, goal_m) : undefined;

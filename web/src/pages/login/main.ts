@@ -2,7 +2,7 @@
 
 import { reasonText } from '../../net/problem';
 import { answered } from '../../net/requests';
-import { createTheme } from '../../ui/theme';
+import { theme } from '../../ui/theme';
 import { takeToken } from '../../net/loginToken';
 import { part } from '../part';
 import { addressOf, pathOf } from '../../net/base';
@@ -12,7 +12,7 @@ const field = part('input', '#token');
 const button = part('button');
 const status = part('p', '[role=status]');
 
-createTheme();
+theme();
 
 function say(text: string, isRefusal = false): void {
   status.textContent = text;

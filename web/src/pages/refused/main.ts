@@ -1,5 +1,5 @@
 // The page for a refused request, in the user's colours.
 
-import { createTheme } from '../../ui/theme';
+import { theme } from '../../ui/theme';
 
-createTheme();
+theme();
