@@ -114,7 +114,9 @@ export function restart(
   state: StateMessage,
   change: Partial<Pick<Experiment, 'script' | 'disturbances'>>,
 ): ClientMessage {
-  const goal_m = state.goal_m ?? scene.scenario.goal_m;
+  const place = state.goal_m ?? scene.scenario.goal_m;
+  // Exactly where it is; a link rounds it.
+  const goal_m: Experiment['goal_m'] = place && [place[0], place[1]];
   const now = experimentOf(scene, { controller: state.controller, goal_m });
-  return loadMessage({ ...now, ...change }, scene.defaults);
+  return loadMessage({ ...now, goal_m, ...change }, scene.defaults);
 }
