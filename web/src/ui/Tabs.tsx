@@ -27,6 +27,7 @@ export function Tabs<T extends TabHead>(props: {
   /** The panel of a tab. `tools` is the element for the panel's own controls beside the tabs. */
   children: (tab: T, tools: HTMLElement) => JSX.Element;
 }): JSX.Element {
+  let root!: HTMLElement;
   const tools = document.createElement('div');
   tools.className = 'tab-tools';
   const [first, ...rest] = props.tabs;
@@ -46,6 +47,10 @@ export function Tabs<T extends TabHead>(props: {
     setOpen(found.id);
     fold.set(true);
     props.onOpened();
+    // On a phone it is below the workspace.
+    requestAnimationFrame(() => {
+      root.scrollIntoView({ block: 'start' });
+    });
   });
   const onKey = (event: KeyboardEvent): void => {
     const move = MOVES[event.key];
@@ -57,7 +62,7 @@ export function Tabs<T extends TabHead>(props: {
     document.getElementById(`tab-${next.id}`)?.focus();
   };
   return (
-    <section class={`panel ${props.area}`} data-closed={fold.isOpen() ? undefined : ''}>
+    <section ref={root} class={`panel ${props.area}`} data-closed={fold.isOpen() ? undefined : ''}>
       <div class="tab-strip">
         <FoldButton fold={fold} controls={`${props.area}-panel`} label={props.label} />
         <div class="tabs" role="tablist" aria-label={props.label} onKeyDown={onKey}>
