@@ -13,7 +13,6 @@ import { createCapture } from '../features/export/capture';
 import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
-import type { DrawProps } from '../features/draw/DrawView';
 import { fillIn } from '../features/evaluate/draft';
 import { Header } from './Header';
 import { MAP_LAYERS } from './layers';
@@ -53,7 +52,6 @@ export function Page(): JSX.Element {
     document.title = view() === 'laboratory' ? 'Ferry' : `${VIEWS[view()]} – Ferry`;
     if (address.lesson() !== undefined) lab.openTab('lessons');
   });
-  const drawing: DrawProps['kept'] = {};
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
@@ -109,7 +107,7 @@ export function Page(): JSX.Element {
           </main>
         </Match>
         <Match when={view() === 'draw'}>
-          <DrawView kept={drawing} lab={lab} open={(file) => opener.open(file)} />
+          <DrawView lab={lab} open={(file) => opener.open(file)} />
         </Match>
         <Match when={view() === 'train'}>
           <TrainView

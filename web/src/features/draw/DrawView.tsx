@@ -7,23 +7,21 @@ import { fixed } from '../../ui/format';
 import { listen } from '../../ui/listen';
 import { createCheck } from './check';
 import { svgText } from './drawing';
-import { createEditor, type Editor } from './editor';
+import { createEditor } from './editor';
 import { onUndoKey } from './keys';
 import { SidePanel } from './SidePanel';
 import { Surface } from './Surface';
 import { Toolbar } from './Toolbar';
 import './draw.css';
 
-export interface DrawProps {
-  /** Keeps the drawing and its history while another view is open. */
-  readonly kept: { editor?: Editor };
-  readonly lab: Addressed & Session & Trial & Notices;
-  /** Adds the drawing to the server's maps and loads it; returns whether it was added. */
-  readonly open: (file: File) => Promise<boolean>;
-}
+/** Keeps the drawing and its history while another view is open. */
+const editor = createEditor();
 
-export default function DrawView(props: DrawProps): JSX.Element {
-  const editor = (props.kept.editor ??= createEditor());
+export default function DrawView(props: {
+  lab: Addressed & Session & Trial & Notices;
+  /** Adds the drawing to the server's maps and loads it; returns whether it was added. */
+  open: (file: File) => Promise<boolean>;
+}): JSX.Element {
   const svg = createMemo(() => svgText(editor.editing().drawing));
   const isLive = createMemo(() => props.lab.connection().kind === 'live');
   const check = createCheck(svg, isLive);
