@@ -2,7 +2,7 @@
 // A test fails if the browser reports an error or sends a request to another host.
 
 import { type BrowserContextOptions, type Page, test as base, expect } from '@playwright/test';
-import { useFastPictures } from './support/display';
+import { useFastPictures, useSlowDisplay } from './support/display';
 import { Lab } from './support/lab';
 import { Server } from './support/server';
 import { Watch } from './support/watch';
@@ -54,8 +54,12 @@ const skipTips = (page: Page) =>
     }
   });
 
+/** Set to draw less often. */
+const FRAME_MS = Number(process.env.FERRY_FRAME_MS ?? 0);
+
 async function open(page: Page, url: string) {
   await useFastPictures(page);
+  if (FRAME_MS > 0) await useSlowDisplay(page, FRAME_MS);
   await skipTips(page);
   return Lab.attach(page, url);
 }
