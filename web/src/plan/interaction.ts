@@ -146,6 +146,10 @@ export function createInteraction(
   const run = (event: GestureEvent): void => {
     untrack(() => {
       const next = step(mode(), event);
+      const said = lab.notices().workspace;
+      // A new attempt.
+      if (said && next.mode.act.kind === 'held' && act().kind !== 'held')
+        lab.dismiss('workspace', said.id);
       setMode(next.mode);
       next.effects.forEach(perform);
     });
