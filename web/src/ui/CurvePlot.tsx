@@ -54,10 +54,9 @@ export function CurvePlot(props: {
       plot.batch(() => {
         plot.setData(props.data);
       });
-      showCursor(
-        plot,
-        untrack(() => props.at),
-      );
+      // The scale may have changed. Under the pointer, uPlot keeps the cursor.
+      const at = untrack(() => props.at);
+      if (at !== undefined) showCursor(plot, at);
     });
     createEffect(on(palette, () => plot.redraw(true), { defer: true }));
     // The curve itself does not change.
