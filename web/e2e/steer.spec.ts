@@ -240,6 +240,9 @@ test('in fog, the page shows nothing that the camera has not seen', async ({ lab
   await lab.reset({ map: 'posts' });
 });
 
+/** On a busy machine the hand is slow, and a push that is held for three seconds counts as a trigger at rest. */
+const FAR_M = 0.003;
+
 test('a gamepad with an unknown layout rests until its cross was pushed on request', async ({
   lab,
 }) => {
@@ -267,11 +270,11 @@ test('a gamepad with an unknown layout rests until its cross was pushed on reque
   expect(lab.sent.steer).toBeUndefined();
   const [x, y] = tool(lab);
   await push(6, 1);
-  await until('the hand to the right', () => lab.state.steer_m && lab.state.steer_m[0] > x + 0.01);
+  await until('the hand to the right', () => lab.state.steer_m && lab.state.steer_m[0] > x + FAR_M);
   await push(6, 0);
   await expect(hint).toContainText('up');
   await push(7, -1);
-  await until('the hand up', () => lab.state.steer_m && lab.state.steer_m[1] > y + 0.01);
+  await until('the hand up', () => lab.state.steer_m && lab.state.steer_m[1] > y + FAR_M);
   await push(7, 0);
   await expect(hint).toHaveText('Gamepad: stick or cross; the first button stops the tool.');
 });
