@@ -35,6 +35,9 @@ test("plots the paper's figure, and saves it", async ({ lab }) => {
 
   // With the pointer over one part, all parts show the values of the same moment.
   const box = await lab.boxOf(page.locator('[data-part=e] .plot-area'));
+  // The parts are drawn one after the other.
+  const end_m = must(lab.state.tool_m[0], 'x of the tool').toFixed(2).replace('-', '−');
+  await expect(pictureOf(lab, 'f')).toHaveAttribute('aria-label', new RegExp(`Tool \\(${end_m},`));
   const locus = await textOf(lab, 'f');
   await page.mouse.move(box.x + 0.3 * box.width, box.y + box.height / 2);
   await expect(pictureOf(lab, 'f')).not.toHaveAttribute('aria-label', locus);
