@@ -49,7 +49,8 @@ def test_other_render_modes_are_named(kind: type, mode: str) -> None:
 
 def frames_of(video: Path) -> list[Any]:
     moviepy = pytest.importorskip("moviepy")
-    with moviepy.VideoFileClip(str(video)) as clip:
+    # The clip alone leaves the pipes open when ffmpeg ended first.
+    with moviepy.VideoFileClip(str(video)) as clip, clip.reader.proc:
         assert clip.fps == 4
         return list(clip.iter_frames())
 
