@@ -1,6 +1,7 @@
 // Starts the page.
 
 import './styles/tokens.css';
+import './styles/type.css';
 import './styles/reset.css';
 import './ui/controls.css';
 import './ui/text.css';

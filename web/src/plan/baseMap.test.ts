@@ -32,7 +32,7 @@ function open() {
   const layer: LiveLayer = {
     id: 'one',
     label: 'One',
-    swatch: ['tool'],
+    swatch: ['magnet'],
     group: 'Motion',
     create: () => ({}),
     isShown,

@@ -50,12 +50,12 @@ function drawLabel(ctx: Ctx, text: string, at: Vec2, widthPx: number, palette: P
   const top = Math.max(2, at[1] - LABEL_OFFSET_PX - LABEL_HEIGHT_PX);
   ctx.beginPath();
   ctx.roundRect(left, top, width, LABEL_HEIGHT_PX, 4);
-  ctx.fillStyle = palette.panel;
+  ctx.fillStyle = palette.surface;
   ctx.fill();
-  ctx.strokeStyle = palette.hand;
+  ctx.strokeStyle = palette.you;
   ctx.lineWidth = 1;
   ctx.stroke();
-  ctx.fillStyle = palette.text;
+  ctx.fillStyle = palette.ink;
   ctx.textAlign = 'left';
   ctx.textBaseline = 'middle';
   ctx.fillText(text, left + LABEL_PADDING_PX, top + LABEL_HEIGHT_PX / 2 + 0.5);
@@ -73,18 +73,18 @@ export function drawSpring(
   const hand = pxFromWorld(view, hand_m);
   ctx.beginPath();
   for (const point of springPoints(bead, hand)) ctx.lineTo(...point);
-  ctx.strokeStyle = palette.hand;
+  ctx.strokeStyle = palette.you;
   ctx.lineWidth = 1.75;
   ctx.lineJoin = 'round';
   ctx.stroke();
   circle(ctx, hand, 4);
-  ctx.fillStyle = palette.hand;
+  ctx.fillStyle = palette.you;
   ctx.fill();
   drawLabel(ctx, words, hand, widthPx, palette);
 }
 
 export function drawCursor(ctx: Ctx, view: View, palette: Palette, cursor: Vec2): void {
-  ctx.strokeStyle = palette.focus;
+  ctx.strokeStyle = palette.accent;
   ctx.lineWidth = 2;
   cross(ctx, pxFromWorld(view, cursor), 14, 4);
   ctx.stroke();

@@ -47,8 +47,8 @@ export function drawGrid(ctx: Ctx, rect: Rect, view: View, palette: Palette): vo
   const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   const step = gridStepM(view.pxPerM);
   ctx.font = FONT;
-  ctx.fillStyle = palette.muted;
-  ctx.strokeStyle = palette.grid;
+  ctx.fillStyle = palette['ink-3'];
+  ctx.strokeStyle = palette['floor-grid'];
   ctx.lineWidth = 1;
   ctx.beginPath();
   ctx.textAlign = 'center';
@@ -85,7 +85,7 @@ export function drawOutlines(
 ): void {
   ctx.fillStyle = palette.wall;
   ctx.fill(walls, 'evenodd');
-  ctx.strokeStyle = palette['wall-edge'];
+  ctx.strokeStyle = palette['wall-rim'];
   ctx.lineWidth = EDGE_PX;
   ctx.stroke(walls);
   drawBorder(ctx, rect, view, palette);
@@ -93,7 +93,7 @@ export function drawOutlines(
 
 /** The borders are walls too. */
 export function drawBorder(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
-  ctx.strokeStyle = palette['wall-edge'];
+  ctx.strokeStyle = palette['wall-rim'];
   ctx.lineWidth = BORDER_PX;
   ctx.strokeRect(...pxRect(view, rect));
 }

@@ -37,7 +37,7 @@ export function drawMovedWalls(
   ctx.save();
   ctx.clip(table);
   // Lines of one pixel are drawn much faster than wider ones.
-  ctx.strokeStyle = palette['wall-edge'];
+  ctx.strokeStyle = palette['wall-rim'];
   ctx.lineWidth = EDGE_PX;
   ctx.stroke(wallPath(table, walls, view, 0));
   // Hides loops of an outline that has closed in on itself.

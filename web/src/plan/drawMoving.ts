@@ -58,7 +58,7 @@ export function drawBead(
 }
 
 export function drawTracked(ctx: Ctx, view: View, palette: Palette, tracked: Vec2): void {
-  ctx.strokeStyle = palette.text;
+  ctx.strokeStyle = palette.ink;
   ctx.lineWidth = 1;
   cross(ctx, pxFromWorld(view, tracked), TRACKED_PX);
   ctx.stroke();
@@ -88,7 +88,7 @@ export function drawTool(ctx: Ctx, view: View, palette: Palette, tool: Vec2): vo
   ctx.lineWidth = 4;
   circle(ctx, at, TOOL_PX);
   ctx.stroke();
-  ctx.strokeStyle = palette.tool;
+  ctx.strokeStyle = palette.magnet;
   ctx.lineWidth = 2;
   ctx.stroke();
   ctx.lineWidth = 1.25;

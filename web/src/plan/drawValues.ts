@@ -29,7 +29,7 @@ export function drawColours(ctx: Ctx, view: View, { map, picture, image }: Value
 }
 
 export function drawArrows(ctx: Ctx, view: View, palette: Palette, { map }: Values): void {
-  ctx.strokeStyle = palette.text;
+  ctx.strokeStyle = palette.ink;
   ctx.lineWidth = 1;
   ctx.globalAlpha = 0.55;
   ctx.stroke(arrowPath(view, valueArrows(map, view.pxPerM)));

@@ -51,7 +51,7 @@ function haloTexture(): CanvasTexture {
 /** The spring with a length and a radius of 1, upright. */
 function coil(paints: Paints): Strokes {
   const points = COILS * COIL_POINTS;
-  const spring = new Strokes(paints, 'hand', points + 2, { width_px: 2, through: true });
+  const spring = new Strokes(paints, 'you', points + 2, { width_px: 2, through: true });
   spring.move(0, 0, 0);
   for (let i = 0; i <= points; i++) {
     const angle = (2 * Math.PI * i) / COIL_POINTS;
@@ -77,7 +77,7 @@ export class Bead {
     this.ball.castShadow = true;
     this.halo = new Sprite(paints.sprite('bead', haloTexture));
     this.spring = coil(paints);
-    this.grip = new Mesh(new SphereGeometry(0.004, 18, 12), paints.glowing('hand'));
+    this.grip = new Mesh(new SphereGeometry(0.004, 18, 12), paints.glowing('you'));
     this.group.renderOrder = ORDER.solids;
     const air = new Group();
     air.renderOrder = ORDER.air;

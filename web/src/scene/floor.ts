@@ -67,7 +67,7 @@ export class Floor {
       layer.position.copy(sheet.position).setZ(up_m);
       return layer;
     };
-    const haze = over(paints.flat('muted', { opacity: HAZE_OPACITY }), HAZE_UP_M);
+    const haze = over(paints.flat('ink-3', { opacity: HAZE_OPACITY }), HAZE_UP_M);
     const shadow = over(
       new ShadowMaterial({ opacity: SHADOW_OPACITY, depthWrite: false }),
       SHADOW_UP_M,

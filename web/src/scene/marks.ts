@@ -18,7 +18,7 @@ const CROSS_M = 0.006;
 
 /** Four lines around a free middle. */
 function crosshair(paints: Paints): Strokes {
-  const lines = new Strokes(paints, 'focus', 4, { width_px: 2, through: true });
+  const lines = new Strokes(paints, 'accent', 4, { width_px: 2, through: true });
   const [near, far] = CURSOR_M;
   for (const side of [-1, 1]) {
     lines.move(side * near, 0, 0).line(side * far, 0, 0);
@@ -43,13 +43,13 @@ export class Marks {
     const strokes = (name: PaintName, capacity: number, look: Omit<Stroke, 'through'>): Strokes =>
       new Strokes(paints, name, capacity, { ...look, through: true });
     this.objects = layers.map(({ id, create }) => ({ id, ...create(paints, scene) }));
-    const tracked = strokes('text', 2, { width_px: 1, opacity: 0.8 });
+    const tracked = strokes('ink', 2, { width_px: 1, opacity: 0.8 });
     this.tracked = tracked.cross(0, 0, 0, TRACKED_M).done().object;
     this.cursor = crosshair(paints).object;
     this.steering = strokes('you', 25, { width_px: 2 });
-    const plumb = new Strokes(paints, 'tool', 1, { width_px: 1.25, opacity: 0.8 });
+    const plumb = new Strokes(paints, 'magnet', 1, { width_px: 1.25, opacity: 0.8 });
     this.plumb = plumb.move(0, 0, 0).line(0, 0, 1).done().object;
-    const spot = strokes('tool', 24, { width_px: 1.5, opacity: 0.9 });
+    const spot = strokes('magnet', 24, { width_px: 1.5, opacity: 0.9 });
     this.spot = spot.circle(0, 0, 0, CROSS_M, 24).done().object;
 
     const ring = strokes('goal', 66, { width_px: 2.5 });

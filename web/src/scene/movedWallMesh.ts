@@ -62,7 +62,7 @@ export class MovedWallMesh {
     const mesh = new Mesh(this.solid, paints.lit('wall'));
     mesh.castShadow = true;
     mesh.receiveShadow = true;
-    this.group.add(mesh, new LineSegments(this.lines, paints.edge('wall-edge')));
+    this.group.add(mesh, new LineSegments(this.lines, paints.edge('wall-rim')));
     // Otherwise every change would need new bounds.
     for (const one of this.group.children) one.frustumCulled = false;
     this.update();

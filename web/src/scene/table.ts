@@ -112,7 +112,7 @@ export class Table {
       mesh.receiveShadow = true;
     }
     this.edges = edgeGeometry(scene.walls, scene.workspace);
-    const edges = new LineSegments(this.edges, paints.edge('wall-edge'));
+    const edges = new LineSegments(this.edges, paints.edge('wall-rim'));
     this.group.add(slab, this.walls, rim, edges, axisNumbers(palette, scene.workspace));
   }
 

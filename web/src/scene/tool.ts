@@ -106,8 +106,8 @@ export class Tool {
     const block = BLOCKS[orientation];
     const halves = halvesOf(block);
     const solids = new Solids()
-      .box('pole-north', halves.north_m, halves.size_m)
-      .box('pole-south', halves.south_m, halves.size_m);
+      .box('north', halves.north_m, halves.size_m)
+      .box('south', halves.south_m, halves.size_m);
     if (!portalOver) fingers(solids, block.size_m);
     this.held = solids.group(paints);
     this.group.add(this.held);

@@ -18,7 +18,7 @@ it('reads the curve under the pointer, also when more of it comes', async () => 
   ]);
   const onCursor = vi.fn<(index: number | undefined) => void>();
   const context = {
-    lines: [{ label: 'One', color: 'tool' as const }],
+    lines: [{ label: 'One', color: 'magnet-line' as const }],
     xRange: (): [number, number] => [0, 4],
     yRange: (): [number, number] => [0, 10],
     xText: String,

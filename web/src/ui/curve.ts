@@ -125,7 +125,7 @@ function drawBars(u: uPlot, context: CurveContext): void {
     ctx.lineWidth = 1.5 * ratio;
     for (const [upper, lower] of context.bars ?? []) {
       const [highs, lows] = [u.data[upper + 1], u.data[lower + 1]];
-      ctx.strokeStyle = palette()[context.lines[upper]?.color ?? 'text'];
+      ctx.strokeStyle = palette()[context.lines[upper]?.color ?? 'ink'];
       ctx.beginPath();
       u.data[0].forEach((x, index) => {
         const ends = [highs?.[index], lows?.[index]];
@@ -157,9 +157,9 @@ function widthPx({ ctx }: uPlot, texts: readonly string[]): number {
 
 export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
   const axis = {
-    stroke: () => palette().muted,
+    stroke: () => palette()['ink-3'],
     font: FONT,
-    grid: { stroke: () => palette().grid, width: 1 },
+    grid: { stroke: () => palette()['floor-grid'], width: 1 },
     ticks: { show: false },
     gap: GAP_PX,
   };
@@ -206,7 +206,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
       ],
       bands: (context.bands ?? []).map(([upper, lower]) => ({
         series: [upper + 1, lower + 1],
-        fill: () => translucent(palette()[context.lines[upper]?.color ?? 'text']),
+        fill: () => translucent(palette()[context.lines[upper]?.color ?? 'ink']),
       })),
       hooks: {
         drawAxes: [

@@ -9,7 +9,7 @@ export const CAMERA_LAYER: MapLayer & InScene = {
   id: 'camera',
   isSensed: true,
   label: 'Camera field',
-  swatch: ['tool'],
+  swatch: ['magnet'],
   group: 'Camera',
   shownAtFirst: true,
   create: () => ({ moving: () => drawFootprint }),

@@ -16,7 +16,7 @@ export function drawFootprint(ctx: Ctx, { view, palette, scene, state }: MovingP
     ctx.lineTo(...pxFromWorld(view, [toolX_m + x_m, toolY_m + y_m]));
   }
   ctx.closePath();
-  ctx.strokeStyle = palette.tool;
+  ctx.strokeStyle = palette.magnet;
   ctx.globalAlpha = 0.45;
   ctx.lineWidth = 1;
   ctx.lineJoin = 'round';
@@ -54,7 +54,7 @@ export function drawSensed(
   }
   if (overlay.target_m) {
     const [x, y] = pxFromWorld(view, overlay.target_m);
-    ctx.strokeStyle = palette.tool;
+    ctx.strokeStyle = palette.magnet;
     ctx.strokeRect(x - 3, y - 3, 6, 6);
   }
 }

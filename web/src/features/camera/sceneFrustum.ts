@@ -21,8 +21,8 @@ export const sceneFrustum: CreateSceneObject = (paints, { parameters, camera_see
     corner,
     corners[(k + 1) % corners.length] ?? corner,
   ]);
-  const rays = new Strokes(paints, 'tool', corners.length, { width_px: 1, opacity: 0.4 });
-  const foot = new Strokes(paints, 'tool', corners.length, {
+  const rays = new Strokes(paints, 'magnet', corners.length, { width_px: 1, opacity: 0.4 });
+  const foot = new Strokes(paints, 'magnet', corners.length, {
     width_px: 1.5,
     opacity: 0.55,
     through: true,
@@ -36,7 +36,7 @@ export const sceneFrustum: CreateSceneObject = (paints, { parameters, camera_see
   // The lines are sorted by depth with the solids; the area on the floor is a mark.
   const air = new Group();
   air.renderOrder = ORDER.air;
-  air.add(new Mesh(triangles(sides), paints.flat('tool', { opacity: 0.045 })), rays.object);
+  air.add(new Mesh(triangles(sides), paints.flat('magnet', { opacity: 0.045 })), rays.object);
   const object = new Group().add(air, foot.object);
   return {
     object,

@@ -6,7 +6,7 @@ export const CAPTURE_LAYER: MapLayer & InScene = {
   id: 'capture',
   isSensed: true,
   label: 'Capture',
-  swatch: ['tool'],
+  swatch: ['magnet'],
   group: 'Motion',
   shownAtFirst: true,
   create: () => ({ moving: () => drawCapture }),

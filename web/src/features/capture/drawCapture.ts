@@ -19,11 +19,11 @@ export function drawCapture(ctx: Ctx, { view, palette, scene, state }: MovingPic
       edge.lineTo(...px(to));
     }
   }
-  ctx.fillStyle = palette.tool;
+  ctx.fillStyle = palette.magnet;
   ctx.globalAlpha = 0.07;
   ctx.fill(fill);
   ctx.globalAlpha = 0.8;
-  ctx.strokeStyle = palette.tool;
+  ctx.strokeStyle = palette.magnet;
   ctx.lineWidth = 1.25;
   ctx.stroke(edge);
 }

@@ -11,7 +11,7 @@ const UP_M = 8e-4;
 export const sceneCapture: CreateSceneObject = (paints, scene) => {
   const sectors = sectorsOf(scene);
   const look = { through: true, clipped: true };
-  const edge = new Strokes(paints, 'tool', 2 * sectors.length, {
+  const edge = new Strokes(paints, 'magnet', 2 * sectors.length, {
     ...look,
     width_px: 1.25,
     opacity: 0.8,
@@ -22,7 +22,7 @@ export const sceneCapture: CreateSceneObject = (paints, scene) => {
   const corners = sectors.flatMap(({ inner: [a, b], outer: [c, d] }) => [a, c, d, a, d, b]);
   const fill = triangles(corners.map(([x, y]): Point => [x, y, UP_M]));
   const object = new Group().add(
-    new Mesh(fill, paints.flat('tool', { ...look, opacity: 0.08 })),
+    new Mesh(fill, paints.flat('magnet', { ...look, opacity: 0.08 })),
     edge.done().object,
   );
   return {

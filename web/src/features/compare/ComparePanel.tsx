@@ -148,7 +148,7 @@ function Errors(
   const shown_s = (): number => (lab.comparison.tick() - props.comparison.tick) * props.tick_s;
   const rules = createMemo(() => [
     { axis: 'y', at: threshold_cm(), label: 'T', color: 'danger', dashed: true } as const,
-    { axis: 'x', at: shown_s(), label: '', color: 'muted', dashed: false } as const,
+    { axis: 'x', at: shown_s(), label: '', color: 'ink-3', dashed: false } as const,
   ]);
   const branchOf = (name: ControllerName): Branch | undefined =>
     props.comparison.branches.find(({ controller }) => controller === name);

@@ -55,7 +55,7 @@ function GridCell(props: { row: Row | undefined }): JSX.Element {
           <td
             title={`${row().delivered} of ${row().episodes} (${percentRange(row().wilson95)})`}
             style={{
-              background: `color-mix(in srgb, var(--goal) ${fixed(STRONGEST * share(), 0)}%, var(--panel))`,
+              background: `color-mix(in srgb, var(--goal) ${fixed(STRONGEST * share(), 0)}%, var(--surface))`,
             }}
           >
             {fixed(100 * share(), 0)}

@@ -62,12 +62,12 @@ export function fillSheet(
   if (!drawn || !ctx || drawn.width === 0 || drawn.height === 0) return false;
   const caption_px = CAPTION_PX * ratio;
   const space = sheet.height - caption_px;
-  ctx.fillStyle = palette.panel;
+  ctx.fillStyle = palette.surface;
   ctx.fillRect(0, 0, sheet.width, sheet.height);
   const scale = Math.min(sheet.width / drawn.width, space / drawn.height);
   const [width, height] = [scale * drawn.width, scale * drawn.height];
   ctx.drawImage(drawn, (sheet.width - width) / 2, (space - height) / 2, width, height);
-  ctx.fillStyle = palette.text;
+  ctx.fillStyle = palette.ink;
   ctx.font = `${FONT_PX * ratio}px system-ui, sans-serif`;
   ctx.textBaseline = 'middle';
   const inset = INSET_PX * ratio;

@@ -25,7 +25,7 @@ export function createFieldPicture(plane: Plane, palette: Palette): FieldPicture
 export function drawField(ctx: Ctx, view: View, palette: Palette, field: FieldPicture): void {
   const side = 2 * HALF_SIDE_M * view.pxPerM;
   ctx.drawImage(field.image, ...pxFromWorld(view, [-HALF_SIDE_M, HALF_SIDE_M]), side, side);
-  ctx.strokeStyle = palette.text;
+  ctx.strokeStyle = palette.ink;
   ctx.lineWidth = 1;
   ctx.globalAlpha = ARROW_ALPHA;
   ctx.stroke(arrowPath(view, field.arrows));

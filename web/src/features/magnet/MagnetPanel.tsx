@@ -72,9 +72,9 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
 
   const pullContext: CurveContext = {
     lines: [
-      { label: 'lift', color: 'text' },
-      { label: 'pull', color: 'tool' },
-      { label: 'friction', color: 'bead' },
+      { label: 'lift', color: 'ink' },
+      { label: 'pull', color: 'magnet' },
+      { label: 'friction', color: 'bead-line' },
     ],
     xRange: () => [0, 100 * shownOffset(pull().data?.capture_m ?? null)],
     yRange: (max) => [0, Math.max(1.15, 1.05 * max)],
@@ -82,11 +82,13 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
     yText: (value) => fixed(value, 1),
     shades: () => {
       const capture_m = pull().data?.capture_m;
-      return capture_m ? [{ from: 100 * capture_m[0], to: 100 * capture_m[1], color: 'tool' }] : [];
+      return capture_m
+        ? [{ from: 100 * capture_m[0], to: 100 * capture_m[1], color: 'magnet-line' }]
+        : [];
     },
     rules: createMemo((): Rule[] => [
       { axis: 'y', at: 1, label: 'lift-off', color: 'danger', dashed: true },
-      ...upright(distance_m(), { scale: 100, label: 'bead', color: 'bead', dashed: false }),
+      ...upright(distance_m(), { scale: 100, label: 'bead', color: 'bead-line', dashed: false }),
     ]),
     onCursor: (index) => {
       const curve = pull().data;
@@ -107,8 +109,8 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
 
   const reachContext: CurveContext = {
     lines: [
-      { label: 'outer end', color: 'tool' },
-      { label: 'inner end', color: 'tool' },
+      { label: 'outer end', color: 'magnet' },
+      { label: 'inner end', color: 'magnet' },
     ],
     bands: [[0, 1]],
     xRange: () => [1000 * HEIGHTS_M[0], 1000 * HEIGHTS_M[1]],
@@ -121,7 +123,7 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
       return to > from ? [{ from, to, color: 'danger' }] : [];
     },
     rules: createMemo(() => [
-      ...upright(props.parameters.tool_height_m, { ...MM, label: 'now', color: 'text' }),
+      ...upright(props.parameters.tool_height_m, { ...MM, label: 'now', color: 'ink' }),
       ...upright(liftOff_m(), { ...MM, label: '', color: 'danger', dashed: true }),
     ]),
     onCursor: (index) => {

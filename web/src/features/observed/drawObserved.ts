@@ -61,7 +61,7 @@ export function drawBlocks(
   const dark = blockPath(view, layer, layer.dark);
   ctx.lineWidth = 0.75;
   ctx.globalAlpha = 0.5;
-  ctx.strokeStyle = palette.muted;
+  ctx.strokeStyle = palette['ink-3'];
   ctx.stroke(blockPath(view, layer, layer.free));
   ctx.strokeStyle = palette.sensed;
   ctx.stroke(dark);

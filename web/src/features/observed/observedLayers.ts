@@ -26,7 +26,7 @@ export const BLOCKS_LAYER: MapLayer = {
   ...OF_CAMERA,
   id: 'blocks',
   label: 'Quadtree',
-  swatch: ['muted', 'sensed'],
+  swatch: ['ink-3', 'sensed'],
   create: ({ lab }: LayerContext<Pictures>) => ({ aboveWalls: drawn(lab.overlay, drawBlocks) }),
 };
 

@@ -19,7 +19,7 @@ export function drawPlan(ctx: Ctx, { view, palette }: BasePicture, plan: PlanLay
     corners.moveTo(x + CORNER_PX, y);
     corners.arc(x, y, CORNER_PX, 0, 2 * Math.PI);
   }
-  ctx.strokeStyle = palette.plan;
+  ctx.strokeStyle = palette.errt;
   ctx.lineWidth = 0.75;
   ctx.globalAlpha = 0.35;
   ctx.stroke(tree);
@@ -33,14 +33,14 @@ export function drawPlan(ctx: Ctx, { view, palette }: BasePicture, plan: PlanLay
   ctx.globalAlpha = 1;
   ctx.lineWidth = 2;
   ctx.stroke(way);
-  ctx.fillStyle = palette.plan;
+  ctx.fillStyle = palette.errt;
   ctx.fill(corners);
 }
 
 export function drawObstacles(ctx: Ctx, { view, palette }: BasePicture, plan: PlanLayer): void {
   ctx.beginPath();
   for (const rect of plan.obstacles) ctx.rect(...pxRect(view, rect));
-  ctx.strokeStyle = palette.plan;
+  ctx.strokeStyle = palette.errt;
   ctx.lineWidth = 0.75;
   ctx.globalAlpha = 0.7;
   ctx.stroke();

@@ -54,7 +54,7 @@ it('says quietly that the machine is at its limit, below 85 % of the speed', asy
     .element(limit)
     .toHaveAttribute('title', expect.stringContaining('The result of the trial is the same'));
   const muted = document.createElement('span');
-  muted.style.color = 'var(--muted)';
+  muted.style.color = 'var(--ink-3)';
   document.body.append(muted);
   const color = (element: Element): string => getComputedStyle(element).color;
   expect(color(limit.element())).toBe(color(muted));

@@ -45,7 +45,7 @@ export function TimePlot(props: {
     yText: (value, step) => fixed(value, Math.max(part.digits, decimals(step))),
     // When sub-controller 1 was active.
     shades: () =>
-      (props.sample?.approaches ?? []).map(([from, to]) => ({ from, to, color: 'mode-1' })),
+      (props.sample?.approaches ?? []).map(([from, to]) => ({ from, to, color: 'ink-3' })),
     rules: createMemo(() => rulesOf(part, props.sample, props.threshold_m)),
     onCursor: (index) => {
       figure.point(index === undefined ? undefined : times()[index]);

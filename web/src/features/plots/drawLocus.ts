@@ -47,10 +47,10 @@ export function drawLocus(ctx: Ctx, picture: LocusPicture): void {
   ctx.fillStyle = palette.wall;
   ctx.fill(picture.walls, 'evenodd');
   ctx.globalAlpha = 1;
-  drawTrail(ctx, view, palette.tool, columns.tool_x_m, columns.tool_y_m);
+  drawTrail(ctx, view, palette.magnet, columns.tool_x_m, columns.tool_y_m);
   drawTrail(ctx, view, palette.bead, columns.bead_x_m, columns.bead_y_m);
   if (picture.goal_m) drawGoal(ctx, view, palette, picture.goal_m);
-  ctx.strokeStyle = palette.hand;
+  ctx.strokeStyle = palette.you;
   ctx.lineWidth = 1.75;
   ctx.beginPath();
   for (const { at_m } of sample.struck) {
@@ -63,7 +63,7 @@ export function drawLocus(ctx: Ctx, picture: LocusPicture): void {
   ctx.stroke();
   if (picture.marked === undefined) return;
   const { tool, bead } = placesAt(sample, picture.marked);
-  dot(ctx, palette.tool, palette.floor, pxFromWorld(view, tool));
+  dot(ctx, palette.magnet, palette.floor, pxFromWorld(view, tool));
   dot(ctx, palette.bead, palette.floor, pxFromWorld(view, bead));
 }
 

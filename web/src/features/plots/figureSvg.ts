@@ -30,8 +30,8 @@ const BOX = {
 };
 const TICKS = 4;
 const TRAILS = [
-  { label: 'tool', color: 'tool' },
-  { label: 'bead', color: 'bead' },
+  { label: 'tool', color: 'magnet-line' },
+  { label: 'bead', color: 'bead-line' },
 ] as const;
 const CROSS_PX = 4;
 
@@ -78,7 +78,7 @@ function caption(
     return mark + text([x + 16, 16], label, palette[color]);
   });
   return (
-    text([INSET.left, 16], `(${letter}) ${title}`, palette.text, 'font-weight="600"') +
+    text([INSET.left, 16], `(${letter}) ${title}`, palette.ink, 'font-weight="600"') +
     marks.join('')
   );
 }
@@ -103,12 +103,12 @@ function timePart(part: Part, facts: FigureFacts): string {
   for (const [from_s, to_s] of sample.approaches) {
     const width = Math.max(0.5, x(to_s) - x(from_s));
     out.push(
-      `<rect x="${n(x(from_s))}" y="${INSET.top}" width="${n(width)}" height="${n(BOX.height)}" fill="${palette['mode-1']}" fill-opacity="0.16"/>`,
+      `<rect x="${n(x(from_s))}" y="${INSET.top}" width="${n(width)}" height="${n(BOX.height)}" fill="${palette['ink-3']}" fill-opacity="0.16"/>`,
     );
   }
   const tick = (from: Vec2, to: Vec2, at: Vec2, number: string, anchor: string): void => {
-    out.push(line(from, to, palette.grid));
-    out.push(text(at, number, palette.muted, `text-anchor="${anchor}"`));
+    out.push(line(from, to, palette['floor-grid']));
+    out.push(text(at, number, palette['ink-3'], `text-anchor="${anchor}"`));
   };
   for (const value of roundTicks(low, high, TICKS)) {
     const [at, number] = [y(value), fixed(value, part.digits)];
@@ -153,9 +153,9 @@ function locusPart(facts: FigureFacts): string {
   const way = (xs: Float64Array, ys: Float64Array): Vec2[] =>
     [...xs].map((x_m, index) => pxFromWorld(view, [x_m, ys[index] ?? 0]));
   const out = [
-    `<rect x="${n(left)}" y="${n(top)}" width="${n(right - left)}" height="${n(bottom - top)}" fill="${palette.floor}" stroke="${palette['wall-edge']}"/>`,
+    `<rect x="${n(left)}" y="${n(top)}" width="${n(right - left)}" height="${n(bottom - top)}" fill="${palette.floor}" stroke="${palette['wall-rim']}"/>`,
     `<path d="${walls}" fill="${palette.wall}" fill-opacity="0.45" fill-rule="evenodd"/>`,
-    polyline(way(columns.tool_x_m, columns.tool_y_m), palette.tool),
+    polyline(way(columns.tool_x_m, columns.tool_y_m), palette.magnet),
     polyline(way(columns.bead_x_m, columns.bead_y_m), palette.bead),
   ];
   if (facts.goal_m) {
@@ -171,7 +171,7 @@ function locusPart(facts: FigureFacts): string {
         line(
           [x - CROSS_PX, y - side * CROSS_PX],
           [x + CROSS_PX, y + side * CROSS_PX],
-          palette.hand,
+          palette.you,
           'stroke-width="2"',
         ),
       );
@@ -192,8 +192,8 @@ export function figureSvg(facts: FigureFacts): string {
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="11">` +
     `<title>${escaped(facts.title)}</title>` +
-    `<rect width="${width}" height="${height}" fill="${facts.palette.panel}"/>` +
-    text([12, 20], facts.title, facts.palette.muted) +
+    `<rect width="${width}" height="${height}" fill="${facts.palette.surface}"/>` +
+    text([12, 20], facts.title, facts.palette['ink-3']) +
     placed.join('') +
     '</svg>'
   );

@@ -35,8 +35,8 @@ export const PARTS: readonly Part[] = [
     letter: 'a',
     title: 'x',
     lines: [
-      { column: 'tool_x_m', label: 'tool', color: 'tool' },
-      { column: 'bead_x_m', label: 'bead', color: 'bead' },
+      { column: 'tool_x_m', label: 'tool', color: 'magnet-line' },
+      { column: 'bead_x_m', label: 'bead', color: 'bead-line' },
     ],
   },
   {
@@ -44,8 +44,8 @@ export const PARTS: readonly Part[] = [
     letter: 'b',
     title: 'y',
     lines: [
-      { column: 'tool_y_m', label: 'tool', color: 'tool' },
-      { column: 'bead_y_m', label: 'bead', color: 'bead' },
+      { column: 'tool_y_m', label: 'tool', color: 'magnet-line' },
+      { column: 'bead_y_m', label: 'bead', color: 'bead-line' },
     ],
   },
   {
@@ -67,7 +67,7 @@ export const PARTS: readonly Part[] = [
     letter: 'e',
     title: 'Error norm',
     threshold: true,
-    lines: [{ column: 'error_m', label: 'e', color: 'text' }],
+    lines: [{ column: 'error_m', label: 'e', color: 'ink' }],
   },
 ];
 
@@ -117,10 +117,10 @@ export function rulesOf(
   const rules: Rule[] = (sample?.struck ?? []).map(({ time_s }) => ({
     ...rule,
     at: time_s,
-    color: 'hand',
+    color: 'you',
   }));
   if (sample && sample.at_s < (sample.columns.sim_time_s.at(-1) ?? 0) - BEHIND_S) {
-    rules.push({ ...rule, at: sample.at_s, color: 'focus', isStrong: true });
+    rules.push({ ...rule, at: sample.at_s, color: 'accent', isStrong: true });
   }
   if (part.threshold && threshold_m !== undefined) {
     const at = threshold_m * part.scale;

@@ -24,12 +24,12 @@ interface Square {
 }
 
 const COLOURS: Readonly<Record<Look['kind'], keyof Palette>> = {
-  delivered: 'tool',
-  first: 'tool',
+  delivered: 'magnet',
+  first: 'magnet',
   late: 'bead',
   second: 'bead',
   lost: 'danger',
-  equal: 'muted',
+  equal: 'ink-3',
 };
 
 /** Stripes for late and for the second, crosses for lost: the layer is read without its colours, too. */
@@ -78,7 +78,7 @@ function draw(
       ctx.globalAlpha = 1;
     }
     if (isDropped) {
-      ctx.strokeStyle = palette.hand;
+      ctx.strokeStyle = palette.you;
       ctx.lineWidth = 3 * LINE_PX;
       ctx.strokeRect(left, top, side, side);
     }
@@ -88,7 +88,7 @@ function draw(
 export const RECOVERY_LAYER: MapLayer = {
   id: 'recovery',
   label: 'Recovery',
-  swatch: ['tool', 'bead', 'danger'],
+  swatch: ['magnet', 'bead', 'danger'],
   group: 'Motion',
   shownAtFirst: true,
   create: ({ lab }: LayerContext<Session & Trial>) => {

@@ -12,7 +12,7 @@ const POINTS = 2000;
 export const sceneTrails: CreateSceneObject = (paints) => {
   const style = { width_px: 1.75, opacity: 0.6, through: true };
   const strokes = [
-    new Strokes(paints, 'tool', POINTS + 1, style),
+    new Strokes(paints, 'magnet', POINTS + 1, style),
     new Strokes(paints, 'bead', POINTS + 1, style),
   ] as const;
   const object = new Group();

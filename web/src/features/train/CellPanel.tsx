@@ -42,7 +42,7 @@ export function CellPanel(props: {
     yText: (value) => fixed(value, 2),
     rules: createMemo(() =>
       props.frame
-        ? [{ axis: 'x', at: props.frame.update, label: '', color: 'text', dashed: true } as const]
+        ? [{ axis: 'x', at: props.frame.update, label: '', color: 'ink', dashed: true } as const]
         : [],
     ),
     onCursor: setPointed,

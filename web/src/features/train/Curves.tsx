@@ -17,8 +17,8 @@ export interface Curve {
 }
 
 const STYLES = [
-  { color: 'tool', isDashed: false },
-  { color: 'bead', isDashed: true },
+  { color: 'magnet-line', isDashed: false },
+  { color: 'bead-line', isDashed: true },
 ] as const;
 
 export function Curves(props: {

@@ -83,7 +83,7 @@ function drawChosen(ctx: Ctx, { view, palette }: Base, cells: TrainingCells, cen
   const [x, y] = pxFromWorld(view, center);
   for (const [colour, width] of [
     [palette.floor, 5],
-    [palette.focus, 2.5],
+    [palette.accent, 2.5],
   ] as const) {
     ctx.strokeStyle = colour;
     ctx.lineWidth = width;
@@ -118,7 +118,7 @@ function drawEpisode(
   const { view, palette } = base;
   const at = placeAfter(cells, episode, steps);
   if (!at) return;
-  ctx.strokeStyle = isGreedy ? palette.tool : palette.bead;
+  ctx.strokeStyle = isGreedy ? palette.magnet : palette.bead;
   ctx.globalAlpha = PATH_ALPHA;
   ctx.lineWidth = 1.5;
   ctx.setLineDash(isGreedy ? [] : [3, 3]);
@@ -136,14 +136,14 @@ function drawEpisode(
   if (isOver && episode.ending !== 'reached') {
     const path = new Path2D();
     markOf(episode.ending)(path, [x, y], DOT_PX);
-    ctx.strokeStyle = isGreedy ? palette.tool : palette.bead;
+    ctx.strokeStyle = isGreedy ? palette.magnet : palette.bead;
     ctx.lineWidth = 2.5;
     ctx.stroke(path);
     return;
   }
   ctx.beginPath();
   ctx.arc(x, y, DOT_PX, 0, 2 * Math.PI);
-  ctx.fillStyle = isGreedy ? palette.tool : palette.floor;
+  ctx.fillStyle = isGreedy ? palette.magnet : palette.floor;
   ctx.fill();
   ctx.strokeStyle = isGreedy ? palette.floor : palette.bead;
   ctx.lineWidth = isGreedy ? 1.25 : 2;
