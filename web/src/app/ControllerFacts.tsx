@@ -5,7 +5,7 @@ import { PlannerFacts } from '../features/planner/PlannerFacts';
 import { ProgramFacts } from '../features/program/ProgramFacts';
 import { RobotFacts } from '../features/robot/RobotFacts';
 import { ValueFans } from '../features/values/ValueFans';
-import type { ByHand, OpenTab, Pictures, Trial } from '../lab/slices';
+import type { ByHand, Panels, Pictures, Trial } from '../lab/slices';
 import { YouFacts } from '../features/steer/YouFacts';
 import type { ControllerName } from '../net/protocol.gen';
 import './ControllerFacts.css';
@@ -20,7 +20,7 @@ const NONE_YET: Record<ControllerName, string | undefined> = {
   robot: undefined,
 };
 
-export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & OpenTab }): JSX.Element {
+export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & Panels }): JSX.Element {
   const { lab } = props;
   return (
     <Show when={lab.state()}>

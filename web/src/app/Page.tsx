@@ -7,32 +7,29 @@ import { VIEWS } from '../lab/address';
 import { createLab } from '../lab/lab';
 import { followChallengeLink } from '../lab/pageChallenge';
 import { createPageExperiment } from '../lab/pageExperiment';
-import { AsidePanel } from './AsidePanel';
-import { CameraPanel } from '../features/camera/CameraPanel';
 import { createCapture } from '../features/export/capture';
 import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
-import { ControllerPanel } from '../features/controller/ControllerPanel';
 import { fillIn } from '../features/evaluate/draft';
-import { Header } from './Header';
+import { Dock } from './Dock';
+import { Inspector } from './Inspector';
 import { MAP_LAYERS } from './layers';
+import { PhoneTabs } from './PhoneTabs';
+import { Rail } from './Rail';
+import { Stage } from './Stage';
+import { TopBar } from './TopBar';
+import { FailureCard } from '../features/failure/FailureCard';
+import { createInteraction } from '../plan/interaction';
+import { createChoice } from '../ui/storage';
 import { LiveRegion } from './LiveRegion';
-import { LowerPanel } from './LowerPanel';
-import { OpenMap } from '../features/maps/OpenMap';
 import { createMapOpener } from '../features/maps/opener';
 import { showMap } from '../features/train/state';
-import { PlaybackBar } from '../features/playback/PlaybackBar';
-import { KeptRuns } from '../features/runs/KeptRuns';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
-import { PresetSelect } from '../features/share/PresetSelect';
 import { ShareButton } from '../features/share/ShareButton';
-import { TwinFacts } from '../features/twin/TwinFacts';
 import { WhyCard } from '../features/why/WhyCard';
-import { ControllerFacts } from './ControllerFacts';
 import { onFileDrop } from '../ui/fileDrop';
 import { lazyView } from '../ui/lazyPart';
 import type { ViewPicture } from '../plan/viewPicture';
-import { WorkspacePanel } from './WorkspacePanel';
 
 const DrawView = lazyView(() => import('../features/draw/DrawView'));
 const TrainView = lazyView(() => import('../features/train/TrainView'));
@@ -48,9 +45,12 @@ export function Page(): JSX.Element {
   const [picture, setPicture] = createSignal<ViewPicture>();
   const capture = createCapture(lab, picture);
   const opener = createMapOpener(lab);
+  const interaction = createInteraction(lab);
+  const [mode, chooseMode] = createChoice('view', ['plan', 'scene']);
+  const [lanes, setLanes] = createChoice('lanes', ['closed', 'open']);
   createEffect(() => {
     document.title = view() === 'laboratory' ? 'Ferry' : `${VIEWS[view()]} – Ferry`;
-    if (address.lesson() !== undefined) lab.openTab('lessons');
+    if (address.lesson() !== undefined) lab.showPanel('learn');
   });
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
@@ -65,46 +65,57 @@ export function Page(): JSX.Element {
   onDrop(/\.json$/i, (file) => openCase(lab, file));
   return (
     <>
-      <Header lab={lab} />
+      <Rail lab={lab} />
+      <TopBar
+        lab={lab}
+        mode={mode()}
+        onMode={chooseMode}
+        share={
+          <ShareButton links={links} map={lab.scene()?.map}>
+            <CaptureTools capture={capture} />
+          </ShareButton>
+        }
+      />
       <LiveRegion lab={lab} />
       <Switch>
         <Match when={view() === 'laboratory'}>
           {/* Before the panels, so that Run is among the first stops of the Tab key. */}
-          <PlaybackBar
+          <Dock
             lab={lab}
-            above={<ExperimentNotice lab={lab} links={links} />}
-            choices={
+            hasPlots={lanes() === 'open'}
+            onPlots={(shown) => {
+              setLanes(shown ? 'open' : 'closed');
+            }}
+          />
+          <Stage
+            lab={lab}
+            interaction={interaction}
+            mode={mode()}
+            onMode={chooseMode}
+            onPicture={setPicture}
+            notice={<ExperimentNotice lab={lab} links={links} />}
+          >
+            <RecordingClock capture={capture} />
+          </Stage>
+          <Inspector
+            lab={lab}
+            parts={{
+              picker: interaction.picker,
+              links,
+              opener,
+              onTrain: () => {
+                showMap();
+                address.show('train');
+              },
+            }}
+            above={
               <>
-                <OpenMap
-                  lab={lab}
-                  opener={opener}
-                  onTrain={() => {
-                    showMap();
-                    address.show('train');
-                  }}
-                />
-                <PresetSelect lab={lab} links={links} />
+                <FailureCard lab={lab} />
+                <WhyCard lab={lab} />
               </>
             }
-            share={
-              <ShareButton links={links} map={lab.scene()?.map}>
-                <CaptureTools capture={capture} />
-              </ShareButton>
-            }
-            runs={<KeptRuns lab={lab} />}
-            below={<WhyCard lab={lab} />}
           />
-          <main>
-            <WorkspacePanel lab={lab} onPicture={setPicture}>
-              <RecordingClock capture={capture} />
-            </WorkspacePanel>
-            <CameraPanel lab={lab} />
-            <ControllerPanel lab={lab} above={<TwinFacts lab={lab} />}>
-              <ControllerFacts lab={lab} />
-            </ControllerPanel>
-            <LowerPanel lab={lab} />
-            <AsidePanel lab={lab} />
-          </main>
+          <PhoneTabs lab={lab} />
         </Match>
         <Match when={view() === 'draw'}>
           <DrawView lab={lab} open={(file) => opener.open(file)} />

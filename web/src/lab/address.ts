@@ -8,7 +8,7 @@ import { sessionOf } from '../net/session';
 export type View = 'laboratory' | OtherView;
 
 export const VIEWS: Readonly<Record<View, string>> = {
-  laboratory: 'Laboratory',
+  laboratory: 'Lab',
   draw: 'Draw',
   train: 'Train',
   recordings: 'Recordings',

@@ -23,6 +23,7 @@ import { frameScheduler, Inbox } from './inbox';
 import { createKeeper } from './keepControl';
 import { createLayerChoice, type KnownLayer } from './layers';
 import { EMPTY, type Input, type Model, reduce } from './model';
+import { createPanels } from './panels';
 import type { Place } from './places';
 import type { Sight } from './sight';
 import type { Lab } from './slices';
@@ -36,7 +37,6 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
   const [inspected, setInspected] = createSignal<EventMessage>();
-  const [opened, setOpened] = createSignal<{ readonly tab: string }>();
   const history = new History();
   const inbox = new Inbox();
   const pictures = new Map<number, Picture>();
@@ -196,9 +196,6 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
     setSight,
     comparison,
     ...createLayerChoice(knownLayers),
-    opened,
-    openTab: (tab) => {
-      setOpened(tab === undefined ? undefined : { tab });
-    },
+    ...createPanels(),
   };
 }

@@ -2,7 +2,7 @@
 
 import { createEffect, createRoot, type Accessor } from 'solid-js';
 import { leaveAddress } from './address';
-import type { Contested, OpenTab, Session, Trial } from './slices';
+import type { Contested, Panels, Session, Trial } from './slices';
 
 export const linkedChallenge = ({ search }: Pick<Location, 'search'>): string | undefined =>
   new URLSearchParams(search).get('challenge') ?? undefined;
@@ -21,13 +21,13 @@ function until(condition: Accessor<unknown>): Promise<void> {
 }
 
 export async function followChallengeLink(
-  lab: Session & Trial & Contested & OpenTab,
+  lab: Session & Trial & Contested & Panels,
   page: Window,
 ): Promise<void> {
   const name = linkedChallenge(page.location);
   if (name === undefined) return;
   await until(() => lab.scene() && lab.hello());
-  lab.openTab('challenge');
+  lab.showPanel('play');
   await until(lab.canOperate);
   // A page that is loaded again goes on.
   const { kind } = await lab.contest.play(name);

@@ -14,11 +14,12 @@ import type { History } from './history';
 import type { Layers } from './layers';
 import type { Model } from './model';
 import type { MovedWalls } from './movedWalls';
+import type { Panels } from './panels';
 import type { Place } from './places';
 import type { Sight } from './sight';
 import type { Steering } from './steering';
 
-export type { Layers };
+export type { Layers, Panels };
 
 /** The session of this page, and what may be sent to it. */
 export interface Session extends Pick<
@@ -86,12 +87,6 @@ export interface Addressed {
   readonly address: Address;
 }
 
-export interface OpenTab {
-  /** The tab to open, in any tab area. */
-  readonly opened: Accessor<{ readonly tab: string } | undefined>;
-  openTab(tab: string | undefined): void;
-}
-
 export interface Lab
   extends
     Session,
@@ -105,4 +100,4 @@ export interface Lab
     Compared,
     Layers,
     Addressed,
-    OpenTab {}
+    Panels {}

@@ -25,8 +25,7 @@ import './plan.css';
 import type { ByHand, Layers, Pictures, Session, Trial, Walls } from '../lab/slices';
 import { palette } from '../ui/palette';
 
-/** Space for the numbers of the axes, in pixels. */
-const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
+const INSETS = { left: 0, right: 0, top: 0, bottom: 0 };
 
 export interface SurfaceProps {
   readonly lab: Session & Trial & Layers & Pictures & ByHand & Walls;

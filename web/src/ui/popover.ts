@@ -2,6 +2,7 @@
 
 import { createEffect, createSignal } from 'solid-js';
 import { listen } from './listen';
+import './popover.css';
 
 /** `id` is that of the content. `box` are attributes of the element with both button and content. */
 export function createPopover(id: string) {

@@ -4,13 +4,13 @@ import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-j
 import { VOIDS } from '../../words/facts';
 import { CommandButton } from '../../lab/CommandButton';
 import { isOver } from '../../lab/contest';
-import type { ByHand, Contested, OpenTab, Session, Trial } from '../../lab/slices';
+import type { ByHand, Contested, Panels, Session, Trial } from '../../lab/slices';
 import type { AttemptStanding } from '../../net/protocol.gen';
 import { seconds } from '../../ui/format';
 import { challengeTitle, penaltyWords, verdict } from './words';
 import './stage.css';
 
-type StageLab = Session & Trial & Contested & OpenTab & ByHand;
+type StageLab = Session & Trial & Contested & Panels & ByHand;
 
 /** The tab may be open already, scrolled to another place. */
 function showResult(): void {
@@ -88,7 +88,7 @@ export function StageBar(props: {
                 type="button"
                 class="small primary"
                 onClick={() => {
-                  lab.openTab('challenge');
+                  lab.showPanel('play');
                   requestAnimationFrame(showResult);
                 }}
               >

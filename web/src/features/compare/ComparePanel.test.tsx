@@ -5,7 +5,7 @@ import ComparePanel from './ComparePanel';
 
 it('compares the chosen controllers, and shows why the server refuses it', async () => {
   const { lab, server } = fakeLab();
-  show(() => <ComparePanel lab={lab} tools={document.createElement('div')} />);
+  show(() => <ComparePanel lab={lab} />);
   const start = page.getByRole('button', { name: 'Start comparison' });
   await expect.element(start).toBeEnabled();
   await page.getByLabelText('Compare RL').click();

@@ -6,16 +6,15 @@ import { page, userEvent } from 'vitest/browser';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { fakeLab, show } from '../../lab/testingLab';
 import { openCase } from './cases';
-import { EVENTS_TAB } from './EventsPanel';
+import { EventsPanel } from './EventsPanel';
 
-const Panel = EVENTS_TAB.panel;
 const opener = page.getByRole('button', { name: 'Open test case…' });
 
 async function open() {
   const { lab, server } = fakeLab();
   show(() => (
     <>
-      <Panel lab={lab} tools={document.createElement('div')} />
+      <EventsPanel lab={lab} />
       <PlaceNotice lab={lab} place="playback" />
     </>
   ));

@@ -2,7 +2,7 @@
 
 import { For, Show, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
-import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { PanelProps } from '../../lab/panel';
 import type { LogLine } from '../../lab/model';
 import type { EventMessage } from '../../net/protocol.gen';
 import { SYMBOL_LEGEND, eventTitle } from '../../lab/eventStory';
@@ -23,7 +23,7 @@ const MOVES: Partial<Record<string, (at: number, count: number) => number>> = {
 const when = (line: LogLine): string =>
   line.sim_time_s === undefined ? '' : clock(line.sim_time_s);
 
-function EventsPanel(props: PanelProps): JSX.Element {
+export function EventsPanel(props: PanelProps): JSX.Element {
   const { lab } = props;
   let box!: HTMLDivElement;
   let following = true;
@@ -111,5 +111,3 @@ function EventsPanel(props: PanelProps): JSX.Element {
     </div>
   );
 }
-
-export const EVENTS_TAB: TabPanel = { id: 'events', title: 'Events', panel: EventsPanel };

@@ -2,7 +2,7 @@
 
 import type { CaseSummary, EventMessage, StateMessage } from '../../net/protocol.gen';
 import { clock, counted } from '../../ui/format';
-import type { Notices, OpenTab, Session } from '../../lab/slices';
+import type { Notices, Panels, Session } from '../../lab/slices';
 
 /** For the rest of the message. */
 const SPARE_BYTES = 1024;
@@ -14,7 +14,7 @@ export function fits(text: string, bytes: number): boolean {
 }
 
 /** Sends the file to the server, which reads it. */
-export async function openCase(lab: Session & Notices & OpenTab, file: File): Promise<void> {
+export async function openCase(lab: Session & Notices & Panels, file: File): Promise<void> {
   const say = (text: string): void => {
     lab.notify('playback', text);
   };
@@ -30,7 +30,7 @@ export async function openCase(lab: Session & Notices & OpenTab, file: File): Pr
     say(`This test case is too large: the limit is ${limit}`);
   } else {
     const { kind } = await lab.send('playback', { type: 'open_case', case: text });
-    if (kind === 'done') lab.openTab('events');
+    if (kind === 'done') lab.showPanel('story');
   }
 }
 

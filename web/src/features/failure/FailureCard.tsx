@@ -14,12 +14,12 @@ import {
   furtherSteps,
   needsReset,
 } from '../../lab/failure';
-import type { Events, OpenTab, Pictures, Session, Trial } from '../../lab/slices';
+import type { Events, Panels, Pictures, Session, Trial } from '../../lab/slices';
 import { CloseButton } from '../../ui/CloseButton';
 import { SmallButton } from '../../ui/SmallButton';
 import './failure.css';
 
-type FailureLab = Session & Trial & Events & Pictures & OpenTab;
+type FailureLab = Session & Trial & Events & Pictures & Panels;
 
 /** What can help. */
 function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
@@ -77,7 +77,7 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
                 return tick === undefined ? undefined : { type: 'fork', tick };
               }}
               onDone={() => {
-                lab.openTab('compare');
+                lab.showPanel('compare');
               }}
             >
               Compare from the start

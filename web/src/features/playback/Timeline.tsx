@@ -9,11 +9,7 @@ import { ScriptMarks } from './ScriptMarks';
 import type { Events, Session, Trial } from '../../lab/slices';
 import './Timeline.css';
 
-export function Timeline(props: {
-  lab: Session & Trial & Events;
-  /** At the end of the line. */
-  beside: JSX.Element;
-}): JSX.Element {
+export function Timeline(props: { lab: Session & Trial & Events }): JSX.Element {
   const { lab } = props;
   const oldest = createMemo(() => lab.state()?.oldest_tick ?? 0);
   // The newest kept tick may be a little before the present.
@@ -36,35 +32,30 @@ export function Timeline(props: {
   });
 
   return (
-    <div class="timeline">
-      <span class="end number">{seconds(oldest())}</span>
-      <div class="track">
-        <EventMarks lab={lab} oldest={oldest()} newest={newest()} />
-        <ScriptMarks lab={lab} oldest={oldest()} newest={newest()} />
-        <input
-          ref={slider}
-          type="range"
-          aria-label="Timeline"
-          aria-valuetext={seconds(tick())}
-          title="Rewind: the session pauses at this time"
-          step="1"
-          aria-busy={moment.isPending()}
-          disabled={!lab.canOperate() || newest() === oldest()}
-          onInput={(event) => {
-            moment.choose(event.currentTarget.valueAsNumber);
-          }}
-          onKeyDown={(event) => {
-            if (event.key !== 'ArrowRight' && event.key !== 'ArrowUp') return;
-            // The session can only rewind to control steps, so the next tick is not a target.
-            event.preventDefault();
-            const now = tick();
-            const next = now + ticksToControlStep(now, lab.scene()?.tick_s ?? Infinity);
-            if (next <= newest()) moment.choose(next);
-          }}
-        />
-      </div>
-      <span class="end number">{seconds(newest())}</span>
-      {props.beside}
+    <div class="track">
+      <EventMarks lab={lab} oldest={oldest()} newest={newest()} />
+      <ScriptMarks lab={lab} oldest={oldest()} newest={newest()} />
+      <input
+        ref={slider}
+        type="range"
+        aria-label="Timeline"
+        aria-valuetext={seconds(tick())}
+        title="Rewind: the session pauses at this time"
+        step="1"
+        aria-busy={moment.isPending()}
+        disabled={!lab.canOperate() || newest() === oldest()}
+        onInput={(event) => {
+          moment.choose(event.currentTarget.valueAsNumber);
+        }}
+        onKeyDown={(event) => {
+          if (event.key !== 'ArrowRight' && event.key !== 'ArrowUp') return;
+          // The session can only rewind to control steps, so the next tick is not a target.
+          event.preventDefault();
+          const now = tick();
+          const next = now + ticksToControlStep(now, lab.scene()?.tick_s ?? Infinity);
+          if (next <= newest()) moment.choose(next);
+        }}
+      />
     </div>
   );
 }

@@ -1,7 +1,6 @@
 // The paper's figure, live: positions and tracking errors over time, and the path in the plane.
 
 import { For, createEffect, createSignal, on, onCleanup, type JSX } from 'solid-js';
-import { Portal } from 'solid-js/web';
 import { download, pngOf } from '../../ui/download';
 import { LocusPlot } from './LocusPlot';
 import { TimePlot } from './TimePlot';
@@ -11,7 +10,7 @@ import { LOCUS_LETTER, PARTS } from './parts';
 import { Rotation } from './rotation';
 import { csvOf, type Sample, type WindowChoice, WINDOWS } from './sample';
 import { clock } from '../../ui/format';
-import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { PanelProps } from '../../lab/panel';
 import { shownWalls } from '../../lab/sight';
 import type { ByHand, Events, Notices, Trial } from '../../lab/slices';
 import { SmallButton } from '../../ui/SmallButton';
@@ -84,7 +83,9 @@ function Tools(props: { lab: Trial & Notices & ByHand; figure: Figure }): JSX.El
   );
 }
 
-function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.Element {
+export default function PlotsPanel(
+  props: PanelProps<Trial & Events & Notices & ByHand>,
+): JSX.Element {
   const { lab } = props;
   const figure = createFigure(lab);
   let sample: Sample | undefined;
@@ -107,9 +108,7 @@ function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.E
   });
   return (
     <>
-      <Portal mount={props.tools}>
-        <Tools lab={lab} figure={figure} />
-      </Portal>
+      <Tools lab={lab} figure={figure} />
       <div class="plots">
         <For each={PARTS}>
           {(part, index) => (
@@ -126,5 +125,3 @@ function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.E
     </>
   );
 }
-
-export const PLOTS_TAB: TabPanel = { id: 'plots', title: 'Plots', panel: PlotsPanel };

@@ -44,7 +44,7 @@ it('sends what is chosen, and shows why the server refuses it', async () => {
         : refusal('no goal is set', 'tick');
     },
   });
-  show(() => <RecoveryPanel lab={lab} tools={document.createElement('div')} />);
+  show(() => <RecoveryPanel lab={lab} />);
   const start = page.getByRole('button', { name: /^Map recovery from/ });
   const refused = page.getByText(/^(no goal is set|grid makes)/);
   await expect.element(start).toBeEnabled();
@@ -78,7 +78,7 @@ it('shows a recovery map of another map only when it is chosen, and says so', as
     'GET /api/recoveries/recovery-1': () => report,
   });
   server.lists({ recoveries: [report] });
-  show(() => <RecoveryPanel lab={lab} tools={document.createElement('div')} />);
+  show(() => <RecoveryPanel lab={lab} />);
   const choice = page.getByLabelText('Recovery map', { exact: true });
   await expect.element(choice).toHaveTextContent('1: place, colon, another map');
   await expect.element(page.getByTestId('recovery-progress')).not.toBeInTheDocument();
@@ -109,7 +109,7 @@ it('shows each controller or the difference of two, and goes from cell to cell b
   });
   server.lists({ recoveries: [report] });
   server.scene({ map: 'posts' });
-  show(() => <RecoveryPanel lab={lab} tools={document.createElement('div')} />);
+  show(() => <RecoveryPanel lab={lab} />);
   const figures = page.getByRole('application');
   await expect.poll(() => figures.all().length).toBe(2);
   const errt = page.getByRole('application', { name: /^ERRT: cells/ });

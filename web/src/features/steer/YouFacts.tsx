@@ -1,7 +1,7 @@
 // What the controller You needs: how to steer, what is shown, and who fetches the bead.
 
 import { For, Show, createUniqueId, type JSX } from 'solid-js';
-import type { ByHand, OpenTab } from '../../lab/slices';
+import type { ByHand, Panels } from '../../lab/slices';
 import { SIGHTS, type Sight } from '../../lab/sight';
 import { IS_TOUCH } from '../../ui/touch';
 import { followGamepads } from './pollGamepad';
@@ -10,7 +10,7 @@ import './steer.css';
 
 const PUSH = { right: 'to the right', up: 'up', left: 'to the left', down: 'down' } as const;
 
-export function YouFacts(props: { lab: ByHand & OpenTab }): JSX.Element {
+export function YouFacts(props: { lab: ByHand & Panels }): JSX.Element {
   const { lab } = props;
   const id = createUniqueId();
   const gamepad = followGamepads(lab);
@@ -49,7 +49,7 @@ export function YouFacts(props: { lab: ByHand & OpenTab }): JSX.Element {
       <SmallButton
         title="Race the controllers on a trial of the day"
         onClick={() => {
-          lab.openTab('challenge');
+          lab.showPanel('play');
         }}
       >
         Challenges…

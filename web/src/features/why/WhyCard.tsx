@@ -10,7 +10,7 @@ import type { EventMessage, MomentMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
 import { eventTitle, isSameEvent, marginWords, sentence, whatItSaw } from '../../lab/eventStory';
 import { causeOfEvent } from '../../lab/failure';
-import type { Events, OpenTab, Session, Trial } from '../../lab/slices';
+import type { Events, Panels, Session, Trial } from '../../lab/slices';
 import { CloseButton } from '../../ui/CloseButton';
 import './why.css';
 import { addressOf } from '../../net/base';
@@ -58,10 +58,7 @@ function Story(props: {
   );
 }
 
-function Card(props: {
-  lab: Session & Trial & Events & OpenTab;
-  event: EventMessage;
-}): JSX.Element {
+function Card(props: { lab: Session & Trial & Events & Panels; event: EventMessage }): JSX.Element {
   const { lab } = props;
   let card!: HTMLElement;
   const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
@@ -156,7 +153,7 @@ function Card(props: {
           title="Continues from this moment under every controller"
           command={() => ({ type: 'fork', tick: props.event.tick })}
           onDone={() => {
-            lab.openTab('compare');
+            lab.showPanel('compare');
             close();
           }}
         >
@@ -168,7 +165,7 @@ function Card(props: {
 }
 
 /** Open while an event is inspected. Closing it returns the focus. */
-export function WhyCard(props: { lab: Session & Trial & Events & OpenTab }): JSX.Element {
+export function WhyCard(props: { lab: Session & Trial & Events & Panels }): JSX.Element {
   let from: Element | null = null;
   createEffect(
     on(props.lab.inspected, (now, before) => {

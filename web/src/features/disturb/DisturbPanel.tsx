@@ -27,6 +27,7 @@ import {
 import { ScriptList } from './ScriptList';
 import { type Place, placeAt, PlaceFields } from './PlaceFields';
 import type { Picker } from '../../plan/interaction';
+import type { PanelProps } from '../../lab/panel';
 import type { Session, Trial } from '../../lab/slices';
 import { ChoiceField, NumberField } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
@@ -61,11 +62,9 @@ const NUMBERS_OF: Readonly<Record<Kind | Time, readonly NumberName[]>> = {
   near: ['within_cm'],
 };
 
-export function DisturbBar(props: {
-  lab: Session & Trial;
-  id: string;
-  picker: Picker;
-}): JSX.Element {
+export default function DisturbPanel(
+  props: PanelProps<Session & Trial> & { picker: Picker },
+): JSX.Element {
   const { lab } = props;
   const { bead_m } = lab.state() ?? { bead_m: [0, 0] };
   const here = placeAt(bead_m[0], bead_m[1]);
@@ -159,13 +158,13 @@ export function DisturbBar(props: {
   );
 
   return (
-    <div id={props.id} class="disturb" role="group" aria-label="Disturb the bead">
+    <div class="disturb" role="group" aria-label="Disturb the bead">
       <Form
         class="disturb-form"
         isInline
         send={submit}
         button={button()}
-        buttonClass="small primary"
+        buttonClass="primary"
         buttonTitle={
           time() === 'now'
             ? undefined

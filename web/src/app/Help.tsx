@@ -1,13 +1,14 @@
 // A dialog that says what the page shows, with all keys and a switch for single-character shortcuts.
 
+import { CircleQuestionMark } from 'lucide';
 import { For, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from './pageShortcuts';
 import { attachShortcuts, keyName } from '../ui/shortcuts';
 import { CONTROLLERS, CONTROLLER_HELP } from '../lab/parameters';
 import { createChoice } from '../ui/storage';
 import type { Lab } from '../lab/slices';
-import { SmallButton } from '../ui/SmallButton';
-import './KeyboardHelp.css';
+import { Icon } from '../ui/Icon';
+import './Help.css';
 
 function WhatYouSee(): JSX.Element {
   return (
@@ -29,7 +30,7 @@ function WhatYouSee(): JSX.Element {
   );
 }
 
-export function KeyboardHelp(props: { lab: Lab }): JSX.Element {
+export function Help(props: { lab: Lab }): JSX.Element {
   let dialog!: HTMLDialogElement;
   const [shortcutsAre, setShortcuts] = createChoice('shortcuts', ['on', 'off']);
   const areOn = (): boolean => shortcutsAre() === 'on';
@@ -41,9 +42,10 @@ export function KeyboardHelp(props: { lab: Lab }): JSX.Element {
   onCleanup(attachShortcuts(shortcuts, areOn));
   return (
     <>
-      <SmallButton aria-label="Help" title="Help and keyboard shortcuts (?)" onClick={open}>
-        ?
-      </SmallButton>
+      <button type="button" title="Help and keyboard shortcuts (?)" onClick={open}>
+        <Icon of={CircleQuestionMark} />
+        Help
+      </button>
       <dialog
         ref={dialog}
         class="keyboard-help"

@@ -1,0 +1,33 @@
+// What happened in this trial, as numbers.
+
+import type { JSX } from 'solid-js';
+import { TERMS } from '../lab/terms';
+import type { Trial } from '../lab/slices';
+
+function Counter(props: {
+  label: string;
+  help?: string;
+  testid: string;
+  value: number | undefined;
+}): JSX.Element {
+  return (
+    <div title={props.help}>
+      <dt>{props.label}</dt>
+      <dd class="number" data-testid={props.testid}>
+        {props.value ?? '–'}
+      </dd>
+    </div>
+  );
+}
+
+export function Counters(props: { lab: Trial }): JSX.Element {
+  const { lab } = props;
+  return (
+    <dl class="counters">
+      <Counter label="Delivered" testid="deliveries" value={lab.state()?.deliveries} />
+      <Counter label="Pulled away" testid="disturbances" value={lab.state()?.disturbances} />
+      <Counter label="Switches" help={TERMS.mode} testid="switches" value={lab.state()?.switches} />
+      <Counter label="Steps" testid="steps" value={lab.state()?.steps} />
+    </dl>
+  );
+}

@@ -1,0 +1,109 @@
+// The menu of the top bar: who steers, what is recorded, and what is seldom needed.
+
+import { Show, createEffect, onCleanup, type JSX } from 'solid-js';
+import { Ellipsis } from 'lucide';
+import { takeControl } from '../lab/takeControl';
+import type { Session, Trial } from '../lab/slices';
+import { addressOf, pathOf } from '../net/base';
+import type { RecordingFact } from '../net/protocol.gen';
+import { MAIN } from '../net/session';
+import { Icon } from '../ui/Icon';
+import { createPopover } from '../ui/popover';
+import { recordingWords } from '../words/facts';
+import type { Notices } from '../lab/slices';
+import './MoreMenu.css';
+
+/** Whether everything is recorded. The menu has the whole status. */
+const recordingState = ({ code }: RecordingFact): 'on' | 'gaps' | 'off' =>
+  code === 'on' ? 'on' : code === 'slow' ? 'gaps' : 'off';
+
+/** Puts the session's name in the browser tab, because several sessions may be open side by side. */
+function nameTab(session: string): void {
+  createEffect(() => {
+    const before = document.title;
+    document.title = `${session} – ${before}`;
+    onCleanup(() => {
+      document.title = before;
+    });
+  });
+}
+
+export function MoreMenu(props: { lab: Session & Trial & Notices }): JSX.Element {
+  const { lab } = props;
+  const popover = createPopover('more');
+  if (lab.session !== MAIN) nameTab(lab.session);
+  const isOperator = (): boolean => lab.hello()?.role === 'operator';
+  const isLive = (): boolean => lab.connection().kind === 'live';
+  const link = (): string => (lab.ended() ? 'ended' : lab.connection().kind);
+  const recording = () => lab.state()?.recording;
+  return (
+    <div
+      {...popover.box}
+      class="more"
+      data-testid="connection"
+      data-link={link()}
+      data-session={lab.session}
+    >
+      <Show when={isLive() && lab.hello() && (!isOperator() || lab.hello()?.asked)}>
+        <button
+          type="button"
+          class="primary"
+          onClick={() => {
+            if (isOperator()) void lab.send('session', { type: 'release_control' });
+            else void takeControl(lab);
+          }}
+        >
+          {isOperator() ? 'Give control' : 'Take control'}
+        </button>
+      </Show>
+      <button {...popover.button} class="ghost icon-only" aria-label="More" title="More">
+        <Icon of={Ellipsis} />
+      </button>
+      <Show when={popover.open()}>
+        <div id="more" class="popover more-box" role="group" aria-label="More">
+          <dl class="facts">
+            <dt>Session</dt>
+            <dd data-testid="session-name">{lab.session}</dd>
+            <dt>You are</dt>
+            <dd data-testid="role">{isOperator() ? 'operator' : 'viewer'}</dd>
+            <Show when={recording()}>
+              {(fact) => (
+                <>
+                  <dt>Recording</dt>
+                  <dd data-testid="recording" data-recording={recordingState(fact())}>
+                    {recordingWords(fact())}
+                  </dd>
+                </>
+              )}
+            </Show>
+            <dt>Camera’s picture by</dt>
+            <dd>{lab.hello()?.adapter ?? 'unknown'}</dd>
+            <dt>Time of the session</dt>
+            <dd class="number" data-testid="tick">
+              tick {lab.state()?.tick ?? 0}
+            </dd>
+          </dl>
+          <Show when={isLive() && isOperator()}>
+            <button
+              type="button"
+              onClick={() => {
+                void lab.send('session', { type: 'release_control' });
+                popover.close();
+              }}
+            >
+              Release control
+            </button>
+          </Show>
+          <a
+            class="button"
+            // The demonstration returns to this page.
+            href={`${addressOf('/demo')}#${pathOf(window.location.pathname)}`}
+            title="A demonstration that runs by itself. F11 gives it the whole screen, Esc returns."
+          >
+            Present
+          </a>
+        </div>
+      </Show>
+    </div>
+  );
+}

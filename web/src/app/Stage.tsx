@@ -1,0 +1,176 @@
+// The stage: the map or the 3-D view, with a band above and below it. A click sets the goal; dragging the bead disturbs it.
+
+import { Match, Show, Switch, createMemo, type JSX } from 'solid-js';
+import { CircleQuestionMark } from 'lucide';
+import { StageBar } from '../features/challenge/StageBar';
+import { CameraView } from '../features/steer/CameraView';
+import { TipBar } from '../features/tips/TipBar';
+import { CommandButton } from '../lab/CommandButton';
+import { insidePolygon } from '../lab/geometry';
+import type { Lab } from '../lab/slices';
+import { createLayers } from '../plan/layer';
+import type { Interaction } from '../plan/interaction';
+import { PlanView } from '../plan/PlanView';
+import type { ViewPicture } from '../plan/viewPicture';
+import { ScenePanel } from '../scene/ScenePanel';
+import { fixed } from '../ui/format';
+import { Icon } from '../ui/Icon';
+import { endWords } from '../words/facts';
+import { Counters } from './Counters';
+import { MAP_LAYERS } from './layers';
+import { ScaleBar } from './ScaleBar';
+import { WorkspaceHint } from './WorkspaceHint';
+import type { ViewMode } from './viewMode';
+import './Stage.css';
+
+const HELP_ID = 'workspace-help';
+
+export function Stage(props: {
+  lab: Lab;
+  interaction: Interaction;
+  mode: ViewMode;
+  onMode: (mode: ViewMode) => void;
+  onPicture: (picture: ViewPicture | undefined) => void;
+  /** In place of the counters above the map. */
+  notice: JSX.Element;
+  /** In the band below the map. */
+  children: JSX.Element;
+}): JSX.Element {
+  const { lab, interaction } = props;
+  let stage!: HTMLElement;
+  const layers = createLayers(MAP_LAYERS, lab);
+
+  const readout = createMemo(() => {
+    const scene = lab.scene();
+    const at = interaction.at();
+    if (!at || !scene) return undefined;
+    // In fog the page tells no walls.
+    if (lab.sight() !== 'all') return { at, wall: false };
+    const moved = lab.movedWalls();
+    const wall = moved ? moved.covers(at) : scene.walls.some((one) => insidePolygon(one, at));
+    return { at, wall };
+  });
+  const spoken = createMemo(() => {
+    const at = interaction.cursor();
+    return interaction.focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
+  });
+  const stale = (): string | undefined => {
+    const ended = lab.ended();
+    if (ended !== undefined) return `${endWords(ended)} Reload the page to restart it.`;
+    return lab.connection().kind === 'live'
+      ? undefined
+      : 'No connection. This is the last received state.';
+  };
+  const isScene = (): boolean => lab.sight() === 'all' && props.mode === 'scene';
+  const surfaceProps = {
+    lab,
+    interaction,
+    layers,
+    helpId: HELP_ID,
+    onPicture: (picture: ViewPicture | undefined) => {
+      props.onPicture(picture);
+    },
+  };
+
+  return (
+    <main ref={stage} class="stage" data-mode={isScene() ? 'scene' : 'plan'}>
+      <div class="map-box">
+        <Switch fallback={<PlanView {...surfaceProps} />}>
+          <Match when={lab.sight() === 'camera'}>
+            <CameraView {...surfaceProps} notices={lab} />
+          </Match>
+          {/* The 3-D view has no fog. */}
+          <Match when={isScene()}>
+            <ScenePanel
+              {...surfaceProps}
+              onPlan={() => {
+                props.onMode('plan');
+              }}
+            />
+          </Match>
+        </Switch>
+        <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
+      </div>
+      <div class="band over">
+        {props.notice}
+        <Show when={lab.contest.attempt()} fallback={<Counters lab={lab} />}>
+          <StageBar
+            lab={lab}
+            onStart={() => {
+              stage.querySelector('canvas')?.focus({ preventScroll: true });
+            }}
+          />
+        </Show>
+      </div>
+      <div class="band under">
+        <Switch
+          fallback={
+            <p id={HELP_ID} class="stage-hint">
+              <WorkspaceHint steers={lab.steering.isActive()} scene={isScene()} />
+            </p>
+          }
+        >
+          <Match when={interaction.picker.isPicking()}>
+            <p class="picking" role="status">
+              Pick a place: click it, or use the arrow keys and Enter. Esc cancels.
+            </p>
+          </Match>
+        </Switch>
+        <Show when={!interaction.picker.isPicking() && !lab.steering.isActive()}>
+          <TipBar lab={lab} scene={isScene()} />
+        </Show>
+        {props.children}
+        <Show
+          when={lab.steering.isActive() && !lab.state()?.goal_m}
+          fallback={
+            <CommandButton
+              lab={lab}
+              at="workspace"
+              class="ghost small"
+              disabled={!lab.state()?.goal_m}
+              command={() => ({ type: 'clear_goal' })}
+            >
+              Clear goal
+            </CommandButton>
+          }
+        >
+          {/* A press steers here, so that a click cannot set the goal. */}
+          <button
+            type="button"
+            class="ghost small"
+            onClick={() => {
+              interaction.picker.start(interaction.setGoal);
+            }}
+          >
+            Set goal
+          </button>
+        </Show>
+        <output class="readout number" aria-live="off">
+          <Show when={readout()} fallback={<ScaleBar />}>
+            {(here) => (
+              <>
+                <Show when={here().wall}>
+                  <span class="wall-hint">wall </span>
+                </Show>
+                x {fixed(here().at[0], 3)} y {fixed(here().at[1], 3)} m
+              </>
+            )}
+          </Show>
+        </output>
+        <button
+          type="button"
+          class="ghost small"
+          onClick={() => {
+            lab.showPanel('layers');
+          }}
+        >
+          <Icon of={CircleQuestionMark} />
+          Key
+        </button>
+        <span class="visually-hidden" aria-live="polite">
+          {spoken()}
+        </span>
+      </div>
+    </main>
+  );
+}

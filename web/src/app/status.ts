@@ -1,0 +1,109 @@
+// What happens now, as one sentence and one number. Pure.
+
+import { isOver } from '../lab/contest';
+import type { ConnectionState } from '../lab/model';
+import { controllerLabel } from '../lab/parameters';
+import type { AttemptStanding, EndFact, StateMessage } from '../net/protocol.gen';
+import { centimetres } from '../ui/format';
+import type { Controller } from '../ui/controllers';
+import { endWords, holdWords, phaseWords, troubleWords } from '../words/facts';
+
+export interface Status {
+  readonly text: string;
+  /** For a phone, where there is no room. */
+  readonly short?: string;
+  /** One number. */
+  readonly more?: string | undefined;
+  readonly tone: 'plain' | 'good' | 'bad';
+  /** Whose shape stands before the sentence. */
+  readonly controller?: Controller;
+}
+
+const plain = (text: string, rest: Partial<Status> = {}): Status => ({
+  text,
+  tone: 'plain',
+  ...rest,
+});
+const bad = (text: string, rest: Partial<Status> = {}): Status => ({ text, tone: 'bad', ...rest });
+
+function connectionStatus(connection: ConnectionState): Status | undefined {
+  switch (connection.kind) {
+    case 'connecting':
+      return plain('Connecting to the server');
+    case 'live':
+      return undefined;
+    case 'lost':
+      return bad('No connection: reconnecting', { more: `attempt ${connection.attempt}` });
+    case 'outdated':
+      return bad('The server has another version: reload the page');
+  }
+}
+
+const capital = (words: string): string => words.charAt(0).toUpperCase() + words.slice(1);
+
+function runningStatus(state: StateMessage): Status {
+  const { controller, phase, refusal, trouble } = state;
+  const name = controllerLabel({ controller, program: state.program?.name ?? null });
+  const whose = { controller };
+  const more =
+    state.goal_distance_m === null
+      ? undefined
+      : `${centimetres(state.goal_distance_m)} to the goal`;
+  if (controller === 'robot') return plain('A robot client moves the arm', whose);
+  if (trouble) return bad(troubleWords(name, trouble).replace(/\.$/, ''), whose);
+  switch (phase.code) {
+    case 'holding':
+      if (refusal) return bad(capital(holdWords(refusal)), whose);
+      return state.goal_m
+        ? plain('The arm holds', whose)
+        : plain('Click the map to set a goal', { ...whose, short: 'Tap the map to set a goal' });
+    case 'approaching':
+      return plain('The arm fetches the bead', {
+        ...whose,
+        more: `${centimetres(state.tracking_error_m)} away`,
+      });
+    case 'transporting':
+      return controller === 'you'
+        ? plain('You carry the bead', { ...whose, more })
+        : plain(`${name} carries the bead to the goal`, {
+            ...whose,
+            short: `${name} carries the bead`,
+            more,
+          });
+    case 'settling':
+      return plain('The bead comes to rest at the goal', { ...whose, short: 'The bead settles' });
+    case 'delivered':
+      return { text: 'Delivered', tone: 'good', controller };
+    case 'lifted_off':
+      return bad('The bead hangs on the magnet', whose);
+    case 'stopped':
+      return bad(capital(phaseWords(phase)), { ...whose, short: 'Stopped' });
+  }
+}
+
+export function statusOf(
+  connection: ConnectionState,
+  ended: EndFact | undefined,
+  state: StateMessage | undefined,
+): Status {
+  if (ended) return bad(endWords(ended).replace(/\.$/, ''), { short: 'The session has ended' });
+  const trouble = connectionStatus(connection);
+  if (trouble) return trouble;
+  if (!state) return plain('Waiting for the first state');
+  if (state.attempt && isOver(state.attempt)) return attemptStatus(state.attempt);
+  const { phase, running } = state;
+  if (
+    running ||
+    phase.code === 'delivered' ||
+    phase.code === 'stopped' ||
+    phase.code === 'lifted_off'
+  )
+    return runningStatus(state);
+  return plain(state.tick === 0 ? 'Ready to run' : 'Paused', { controller: state.controller });
+}
+
+function attemptStatus(attempt: AttemptStanding): Status {
+  return attempt.is_delivered
+    ? { text: 'Delivered: the attempt is over', tone: 'good', short: 'Delivered' }
+    : bad('The attempt is over');
+}

@@ -1,0 +1,74 @@
+// Run, step, reset and speed.
+
+import { createMemo, type JSX } from 'solid-js';
+import { Pause, Play, RotateCcw, StepForward } from 'lucide';
+import { CommandButton } from '../../lab/CommandButton';
+import type { Notices, Session, Trial } from '../../lab/slices';
+import { Icon } from '../../ui/Icon';
+import { ServerSelect } from '../../ui/ServerSelect';
+import { Achieved } from './Achieved';
+import { hintAtGoal, runOrPause } from './run';
+import { speedName, SPEEDS, ticksToControlStep } from './steps';
+import './Transport.css';
+
+export function Transport(props: { lab: Session & Trial & Notices }): JSX.Element {
+  const { lab } = props;
+  const running = (): boolean => lab.state()?.running ?? false;
+  // A memo, so that other updates do not recreate the list under the pointer.
+  const target = createMemo(() => lab.state()?.speed_target ?? 1);
+  const speeds = createMemo(() => {
+    const all = [...new Set([...SPEEDS, target()])].sort((a, b) => a - b);
+    return all.map((factor) => [String(factor), speedName(factor)] as const);
+  });
+  return (
+    <div class="run-buttons">
+      <CommandButton
+        lab={lab}
+        at="playback"
+        class="primary run"
+        title="Space"
+        command={() => runOrPause(lab)}
+        onDone={() => {
+          hintAtGoal(lab);
+        }}
+      >
+        <Icon of={running() ? Pause : Play} />
+        <span>{running() ? 'Pause' : 'Run'}</span>
+      </CommandButton>
+      <CommandButton
+        lab={lab}
+        at="playback"
+        class="ghost icon-only"
+        aria-label="Step"
+        disabled={running()}
+        title="One tick of 8 ms (.); with Shift one control step, a quarter of a second (,)"
+        command={({ shiftKey }) => {
+          const tick = lab.state()?.tick ?? 0;
+          const ticks = shiftKey ? ticksToControlStep(tick, lab.scene()?.tick_s ?? 0.008) : 1;
+          return { type: 'step', ticks };
+        }}
+      >
+        <Icon of={StepForward} />
+      </CommandButton>
+      <CommandButton
+        lab={lab}
+        at="playback"
+        class="ghost icon-only"
+        aria-label="Reset"
+        title="Back to the start with the same seed (R)"
+        command={() => ({ type: 'reset' })}
+      >
+        <Icon of={RotateCcw} />
+      </CommandButton>
+      <ServerSelect
+        label="Speed"
+        hideLabel
+        value={String(target())}
+        options={speeds()}
+        disabled={!lab.canOperate()}
+        onChoose={(value) => lab.send('playback', { type: 'set_speed', factor: Number(value) })}
+      />
+      <Achieved lab={lab} />
+    </div>
+  );
+}

@@ -1,0 +1,53 @@
+// The panels of the inspector, one at a time.
+
+import { createSignal, type Accessor } from 'solid-js';
+import { isPhone } from '../ui/windowSize';
+import { createChoice } from '../ui/storage';
+
+/** Those under the tabs; the first one is open on the first visit. */
+const TABBED = ['now', 'story', 'learn', 'play', 'compare', 'recovery', 'disturb', 'tune'] as const;
+
+export type TabbedPanel = (typeof TABBED)[number];
+/** The others are opened by a button of the top bar, and closed. */
+export type PanelName = TabbedPanel | 'setup' | 'layers';
+
+const isTabbed = (panel: PanelName): panel is TabbedPanel =>
+  panel !== 'setup' && panel !== 'layers';
+
+export interface Panels {
+  /** The open panel; undefined while the inspector is hidden. */
+  readonly panel: Accessor<PanelName | undefined>;
+  showPanel(panel: PanelName): void;
+  /** Closes a panel without a tab; otherwise hides the inspector. */
+  closePanel(): void;
+  /** Hides the inspector, or shows its last panel again. */
+  toggleInspector(): void;
+}
+
+export function createPanels(): Panels {
+  const [tab, setTab] = createChoice('panel', TABBED);
+  const [opened, setOpened] = createSignal<PanelName>();
+  const [inspector, setInspector] = createChoice('inspector', ['shown', 'hidden']);
+  // On a phone it is a sheet over the map, and closed at first.
+  const [sheet, setSheet] = createSignal(false);
+  const isShown = (): boolean => (isPhone() ? sheet() : inspector() === 'shown');
+  const show = (shown: boolean): void => {
+    if (isPhone()) setSheet(shown);
+    else setInspector(shown ? 'shown' : 'hidden');
+  };
+  return {
+    panel: () => (isShown() ? (opened() ?? tab()) : undefined),
+    showPanel: (panel) => {
+      if (isTabbed(panel)) setTab(panel);
+      setOpened(isTabbed(panel) ? undefined : panel);
+      show(true);
+    },
+    closePanel: () => {
+      if (opened() === undefined || isPhone()) show(false);
+      setOpened(undefined);
+    },
+    toggleInspector: () => {
+      show(!isShown());
+    },
+  };
+}
