@@ -25,7 +25,7 @@ test('each view has an address, for Back, Forward, reload and a link', async ({
   await isAt(lab, `${base}/draw`, 'Draw');
   await expect(page.getByLabel('Drawing', { exact: true })).toBeVisible();
   await page.goBack();
-  await expect(lab.view('Laboratory')).toHaveAttribute('aria-current', 'page');
+  await expect(lab.view('Lab')).toHaveAttribute('aria-current', 'page');
   await page.goForward();
   await isAt(lab, `${base}/draw`, 'Draw');
   await page.reload();
@@ -43,19 +43,19 @@ test('a lesson has an address', async ({ lab, session }) => {
   const { page } = lab;
   const base = new URL(session.url).pathname;
   const question = page.getByRole('radiogroup', { name: /magnet/i });
-  await lab.tab('Lessons').click();
+  await lab.panel('Learn');
   await page.getByRole('button', { name: /^Meet the magnet/ }).click();
-  await isAt(lab, `${base}/learn/magnet`, 'Laboratory');
+  await isAt(lab, `${base}/learn/magnet`, 'Lab');
   await expect(question).toBeVisible();
   // It stays open while another view is shown.
   await lab.view('Evaluate').click();
   await isAt(lab, `${base}/evaluate`, 'Evaluate');
-  await lab.view('Laboratory').click();
-  await isAt(lab, `${base}/learn/magnet`, 'Laboratory');
+  await lab.view('Lab').click();
+  await isAt(lab, `${base}/learn/magnet`, 'Lab');
   await page.reload();
   await expect(question).toBeVisible();
   await page.getByRole('button', { name: 'All lessons' }).click();
-  await isAt(lab, base, 'Laboratory');
+  await isAt(lab, base, 'Lab');
   await page.goBack();
   await expect(question).toBeVisible();
   await page.goto(`${session.url}/learn/nothing`);

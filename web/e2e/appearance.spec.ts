@@ -26,7 +26,7 @@ import {
 const RULES_BY_THEME = { dark: undefined, light: ['color-contrast', 'link-in-text-block'] };
 const THEMES = ['dark', 'light'] as const;
 type Theme = (typeof THEMES)[number];
-const VIEWS = ['Laboratory', 'Draw', 'Train', 'Recordings', 'Evaluate'];
+const VIEWS = ['Lab', 'Draw', 'Train', 'Recordings', 'Evaluate'];
 const TAB_AREAS = ['lower', 'aside'];
 const DAILY_PLACES = ['views', 'tabs'];
 const DAILY_WINDOW = 'small';
@@ -133,7 +133,7 @@ test('the tests above cover every view and every tab list', async ({ lab }) => {
     await lab.view(name).click();
     await lab.drawn();
     await expect(lab.page.getByRole('tablist')).toHaveCount(
-      name === 'Laboratory' ? TAB_AREAS.length : 0,
+      name === 'Lab' ? TAB_AREAS.length : 0,
     );
   }
 });

@@ -104,7 +104,7 @@ test('runs its programme, gives way to a visitor, and returns', async ({ page })
   await until('the planner', () => lab.state.controller === 'errt');
 
   await page.keyboard.press('Escape');
-  await page.getByRole('link', { name: 'Laboratory' }).waitFor();
+  await page.getByRole('link', { name: 'Lab' }).waitFor();
 });
 
 test(

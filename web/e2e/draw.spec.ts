@@ -92,7 +92,7 @@ test('keeps what is begun, over a visit to the laboratory and in the saved map',
   await page.mouse.click(...at(0.7, 0.2));
   await page.mouse.click(...at(0.7, 0.6));
   await page.getByLabel('Name').fill('kept');
-  await lab.view('Laboratory').click();
+  await lab.view('Lab').click();
   await lab.view('Draw').click();
   await expect(page.locator('.draw-corner')).toHaveCount(2);
   await expect(page.getByLabel('Name')).toHaveValue('kept');
@@ -104,7 +104,7 @@ test('keeps what is begun, over a visit to the laboratory and in the saved map',
   await lab.button('Undo').click();
   await lab.button('Undo').click();
   await expect(shapes).toHaveCount(0);
-  await lab.view('Laboratory').click();
+  await lab.view('Lab').click();
   await lab.reset({ map: 'posts' });
   expect((await page.request.delete(`${server.url}/api/maps/kept`)).status()).toBe(204);
 });

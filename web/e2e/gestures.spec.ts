@@ -89,7 +89,7 @@ for (const [when, cause] of Object.entries(ENDS)) {
     await cause(lab);
     await released(lab);
     await lab.page.mouse.up();
-    await lab.view('Laboratory').click();
+    await lab.view('Lab').click();
     await lab.pause();
     // The page draws no hand any more, and a click sets one goal.
     let sockets = 0;

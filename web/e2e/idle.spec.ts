@@ -22,10 +22,10 @@ test('a page at rest makes no request, in any view, after each tab was open', as
   page.on('websocket', (socket) => sockets.push(socket.url()));
   await page.reload();
   const tabs = page.getByRole('tab');
-  await expect(page.getByTestId('connection')).toHaveText('live');
+  await expect(page.getByTestId('connection')).toHaveAttribute('data-link', 'live');
   expect(await tabs.count()).toBeGreaterThan(5);
   for (const tab of await tabs.all()) await tab.click();
-  for (const name of ['Draw', 'Train', 'Recordings', 'Evaluate', 'Laboratory']) {
+  for (const name of ['Draw', 'Train', 'Recordings', 'Evaluate', 'Lab']) {
     await page
       .getByRole('navigation', { name: 'Views' })
       .getByRole('link', { name, exact: true })

@@ -17,7 +17,7 @@ function captureText(lab: Lab) {
 
 test('updates the capture range while the friction slider is dragged', async ({ lab }) => {
   const { mouse } = lab.page;
-  await lab.tab('Magnet').click();
+  await lab.panel('Tune');
   await summaryOf(lab, 'Magnet and bead').click();
   expect(await captureText(lab)).toBe('4 to 95 mm');
   const hidden = await lab.page
@@ -45,7 +45,7 @@ test('updates the capture range while the friction slider is dragged', async ({ 
 
 test('changes parameters of the magnet beside its curves and in the form', async ({ lab }) => {
   const { page } = lab;
-  await lab.tab('Magnet').click();
+  await lab.panel('Tune');
   await summaryOf(lab, 'Magnet and bead').click();
   const panel = page.getByRole('group', { name: 'Magnet and friction' });
   const weight = page.getByTestId('magnet-weight');

@@ -85,7 +85,7 @@ async function act(lab: Lab, { button, after }: NonNullable<Lesson['action']>) {
 for (const { title, choice, runs, action } of LESSONS) {
   const suite = DAILY_LESSONS.includes(title) ? DAILY : LONG;
   test(`the experiments of the lesson “${title}” confirm its claim`, suite, async ({ lab }) => {
-    await lab.tab('Lessons').click();
+    await lab.panel('Learn');
     await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
     await lab.page.getByRole('radio', { name: choice }).check();
     await next(lab);
@@ -132,7 +132,7 @@ for (const { title, choice, policies } of TRAINING_LESSONS) {
     LONG,
     async ({ lab, server }) => {
       test.setTimeout(policies.length * TRAIN_MS);
-      await lab.tab('Lessons').click();
+      await lab.panel('Learn');
       await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
       await lab.page.getByRole('radio', { name: choice }).check();
       await next(lab);
@@ -180,7 +180,7 @@ test('does the first lesson by keyboard, and remembers it after a reload', async
 
   await page.reload();
   await lab.live();
-  await lab.tab('Lessons').click();
+  await lab.panel('Learn');
   await expect(page.getByText('1 of 12 done')).toBeVisible();
   await page.getByRole('button', { name: FIRST.title }).click();
   await expect(page.getByLabel(second)).toBeChecked();
@@ -188,7 +188,7 @@ test('does the first lesson by keyboard, and remembers it after a reload', async
 
 test('allows a viewer to predict, but not to set up a run', async ({ lab, openLab }) => {
   const viewer = await openLab();
-  await viewer.tab('Lessons').click();
+  await viewer.panel('Learn');
   await viewer.page.getByRole('button', { name: VIEWER_LESSON.title }).click();
   await viewer.page.getByLabel(VIEWER_LESSON.choice).check();
   await next(viewer);

@@ -26,7 +26,7 @@ async function csvRows(lab: Lab) {
 
 test("plots the paper's figure, and saves it", async ({ lab }) => {
   const { page } = lab;
-  await lab.tab('Plots').click();
+  await lab.button('Plots').click();
   await lab.reset();
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.25, 0.4)[0]);
   // In small steps: the plots have a point for each state that comes.

@@ -70,7 +70,7 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   // An earlier evaluation on this server may be shown until this one is.
   const row = lab.page.getByTestId('evaluation-row').filter({ hasText: 'straight' });
   await expect(row).toContainText('2/2', { timeout: RUN_MS });
-  await lab.view('Laboratory').click();
+  await lab.view('Lab').click();
 
   await disconnect();
   await lab.click(must(lab.freePoints(await lab.bead(), 0.1, 0.15).at(-1), 'another goal'));

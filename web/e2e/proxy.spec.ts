@@ -14,7 +14,7 @@ test('everything that a page below a path asks for is below that path', async ({
   const asked: string[] = [];
   page.context().on('request', (request) => asked.push(new URL(request.url()).pathname));
   await page.reload();
-  await expect(page.getByTestId('connection')).toHaveText('live');
+  await expect(page.getByTestId('connection')).toHaveAttribute('data-link', 'live');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await lab.view('Recordings').click();
   await page.getByRole('link', { name: 'Download anna' }).waitFor();

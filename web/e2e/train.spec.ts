@@ -80,7 +80,7 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   await entry(lab, 'watched').getByRole('button', { name: 'Use it: watched' }).click();
   await until('the policy', () => lab.scene.parameters.rl_policy.startsWith('watched@'));
   await until('the map', () => lab.scene.map === 'u-turn' && lab.state.controller === 'rl');
-  await expect(lab.view('Laboratory')).toHaveAttribute('aria-current', 'page');
+  await expect(lab.view('Lab')).toHaveAttribute('aria-current', 'page');
   await expect(lab.notice('workspace')).toContainText('RL drives with the policy watched.');
   // Its evaluation is filled in.
   await lab.view('Train').click();
@@ -88,7 +88,7 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   await expect(lab.view('Evaluate')).toHaveAttribute('aria-current', 'page');
   await expect(lab.page.getByRole('checkbox', { name: 'u-turn', exact: true })).toBeChecked();
   await expect(lab.label('Policy of RL')).toHaveValue(/^watched@/);
-  await lab.view('Laboratory').click();
+  await lab.view('Lab').click();
   await lab.reset({ map: 'posts' });
   await lab.restoreDefaults();
   expect((await page.request.get(`${server.url}/api/policies/watched.safetensors`)).status()).toBe(

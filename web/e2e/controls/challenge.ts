@@ -12,7 +12,7 @@ const challenge = (lab: Lab) => lab.scene.challenge;
 const trial = (lab: Lab) => lab.scene.trial;
 
 async function list(lab: Lab) {
-  await lab.tab('Challenge').click();
+  await lab.panel('Play');
   if (lab.scene.challenge) await lab.button('Other challenges').click();
   await until('no challenge', () => !lab.scene.challenge);
   await lab.button('Play this').waitFor();

@@ -55,8 +55,8 @@ export const VIEWS: Section = {
   name: 'views, colours and control',
   rows: {
     'link Laboratory': { see: shownView, ready: view('Recordings') },
-    'link Recordings': { see: shownView, after: view('Laboratory') },
-    'link Evaluate': { see: shownView, after: view('Laboratory') },
+    'link Recordings': { see: shownView, after: view('Lab') },
+    'link Evaluate': { see: shownView, after: view('Lab') },
     'button Use light colours': { see: theme, ready: ensureTheme('dark') },
     'button Use dark colours': { see: theme, ready: ensureTheme('light') },
     'button Release control': { see: role },

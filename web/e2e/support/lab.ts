@@ -9,6 +9,10 @@ import { must, until } from './wait';
 const GOAL_RADIUS_M = 0.02;
 const OPEN_MS = 30_000;
 const DELIVERY_MS = 60_000;
+/** Panels under the tab *Test*. */
+const TESTS: readonly string[] = ['Compare', 'Recovery', 'Disturb'];
+export type Panel =
+  'Now' | 'Story' | 'Learn' | 'Play' | 'Compare' | 'Recovery' | 'Disturb' | 'Tune';
 export type ControllerLabel = 'RL' | 'ERRT' | 'Attractor' | 'You';
 
 export class Lab extends Stepper {
@@ -39,7 +43,7 @@ export class Lab extends Stepper {
 
   async live() {
     await until('the first messages', () => this.isComplete, OPEN_MS);
-    await expect(this.page.getByTestId('connection')).toHaveText('live', { timeout: OPEN_MS });
+    await this.isConnection('live');
   }
 
   async text(testid: string) {
@@ -51,8 +55,21 @@ export class Lab extends Stepper {
     return Number((await this.text(testid)).replace('−', '-'));
   }
 
+  async isConnection(state: 'live' | 'lost' | 'outdated' | 'ended') {
+    await expect(this.page.getByTestId('connection')).toHaveAttribute('data-link', state, {
+      timeout: OPEN_MS,
+    });
+  }
+
   async isRole(role: 'operator' | 'viewer') {
-    await expect(this.page.getByTestId('role')).toHaveText(role, { timeout: OPEN_MS });
+    await expect(this.page.getByTestId('connection')).toHaveAttribute('data-role', role, {
+      timeout: OPEN_MS,
+    });
+  }
+
+  /** Waits until the page shows the state of a tick. */
+  async isAtTick(tick: number) {
+    await expect(this.page.getByTestId('sim-time')).toHaveAttribute('title', `tick ${tick}`);
   }
 
   button(name: string) {
@@ -61,6 +78,13 @@ export class Lab extends Stepper {
 
   tab(name: string) {
     return this.page.getByRole('tab', { name, exact: true });
+  }
+
+  /** Opens a panel of the inspector. */
+  async panel(name: Panel) {
+    const isTest = TESTS.includes(name);
+    await this.tab(isTest ? 'Test' : name).click();
+    if (isTest) await this.radio(name).check();
   }
 
   view(name: string) {
@@ -149,12 +173,12 @@ export class Lab extends Stepper {
     return (await this.page.screenshot({ clip })).toString('base64');
   }
 
-  /** Shows or hides a layer, and closes the menu, which covers a part of the map. */
+  /** Shows or hides a layer, and closes the panel of the layers. */
   async layer(name: string, on = true) {
     await this.button('Layers').click();
     const layers = this.page.getByRole('group', { name: 'Layers' });
     await layers.getByLabel(name, { exact: true }).setChecked(on);
-    await this.page.keyboard.press('Escape');
+    await this.button('Layers').click();
     await expect(layers).toHaveCount(0);
   }
 
@@ -180,8 +204,15 @@ export class Lab extends Stepper {
 
   async map(name: string) {
     if (this.scene.map === name) return;
-    await this.label('Map').selectOption(name);
+    await this.setUp();
+    await this.page.getByRole('radiogroup', { name: 'Map' }).getByLabel(name, { exact: true }).check();
+    await this.setUp();
     await this.shown(`map ${name}`, () => this.scene.map === name);
+  }
+
+  /** Opens or closes the panel *Set up*. */
+  async setUp() {
+    await this.page.getByRole('region', { name: 'Experiment' }).locator('.experiment').click();
   }
 
   async reset({ speed = '1', map = 'posts' } = {}) {
@@ -190,7 +221,7 @@ export class Lab extends Stepper {
     const { trial } = this.scene;
     await this.button('Reset').click();
     await until('another trial', () => this.scene.trial !== trial && this.state.tick === 0);
-    await expect(this.page.getByTestId('tick')).toHaveText('tick 0');
+    await this.isAtTick(0);
     await this.speed(speed);
   }
 
@@ -235,6 +266,7 @@ export class Lab extends Stepper {
   }
 
   async releaseControl() {
+    await this.button('More').click();
     await this.button('Release control').click();
     await this.isRole('viewer');
   }

@@ -128,7 +128,7 @@ export const refusalsHelpAndRoles: Places = async function* (lab) {
 
 /** A challenge that waits for its start, and an attempt that does not count. */
 export const challenge: Places = async function* (lab) {
-  await lab.tab('Challenge').click();
+  await lab.panel('Play');
   await lab.page.getByRole('button', { name: /^Easy/ }).first().click();
   await until('a challenge', () => lab.scene.challenge);
   await lab.page.getByRole('table', { name: 'Scores on this challenge' }).waitFor();

@@ -13,7 +13,7 @@ export const cells = (lab: Lab) => lab.page.locator('.recovery-figure .cell');
 
 /** Chooses a small map: places, ERRT and Attractor. */
 export async function chooseSmall(lab: Lab, repeats = '1') {
-  await lab.tab('Recovery').click();
+  await lab.panel('Recovery');
   await lab.label('Disturbance').selectOption('place');
   await lab.label('Columns').fill('4');
   await lab.label('Repeats').fill(repeats);

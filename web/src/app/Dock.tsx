@@ -55,7 +55,11 @@ export function Dock(props: {
         </div>
       </Show>
       <div class="time-row">
-        <span class="sim-time number" data-testid="sim-time">
+        <span
+          class="sim-time number"
+          data-testid="sim-time"
+          title={`tick ${lab.state()?.tick ?? 0}`}
+        >
           {clock(lab.state()?.sim_time_s ?? 0)}
         </span>
         <Timeline lab={lab} />

@@ -42,7 +42,7 @@ export function MoreMenu(props: { lab: Session & Trial & Notices }): JSX.Element
       class="more"
       data-testid="connection"
       data-link={link()}
-      data-session={lab.session}
+      data-role={lab.hello()?.role}
     >
       <Show when={isLive() && lab.hello() && (!isOperator() || lab.hello()?.asked)}>
         <button
