@@ -12,6 +12,7 @@ import {
 } from 'solid-js';
 import { fitView, pxFromWorld, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
+import { framed } from './tray';
 import { fogImage } from './fog';
 import { type Draw, type LiveLayer, type MovingPicture, shownParts, type UnderTool } from './layer';
 import { type Base, createPainter, type Picture } from './paint';
@@ -24,9 +25,6 @@ import { yieldToPage, zooming } from './zooming';
 import './plan.css';
 import type { ByHand, Layers, Pictures, Session, Trial, Walls } from '../lab/slices';
 import { palette } from '../ui/palette';
-
-/** Space for the numbers of the axes, in pixels. */
-const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
 
 export interface SurfaceProps {
   readonly lab: Session & Trial & Layers & Pictures & ByHand & Walls;
@@ -58,7 +56,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     const workspace = lab.scene()?.workspace;
     const { width, height } = size();
     if (!workspace || width * height === 0) return undefined;
-    return { width, height, workspace, fit: fitView(workspace, width, height, INSETS) };
+    return { width, height, workspace, fit: fitView(framed(workspace), width, height) };
   });
   const view = createMemo<View | undefined>(() => {
     const now = frame();
@@ -83,6 +81,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     const map = baseMap();
     return map && { ...map, fog: fog() };
   });
+  const canGrab = (): boolean => lab.canOperate() && !lab.steering.isActive();
   const picture = createMemo<Picture | undefined>(() => {
     const baseNow = base();
     return (
@@ -92,7 +91,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
         state: lab.state(),
         history: lab.history,
         act: act(),
-        grabRadiusPx: reachPx(),
+        grab: canGrab() ? { isNear: reachPx() !== undefined } : undefined,
         cursor: focused() && !lab.steering.isActive() ? cursor() : undefined,
         steer_m: lab.steering.target() ?? lab.state()?.steer_m ?? undefined,
       }

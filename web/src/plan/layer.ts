@@ -15,6 +15,8 @@ export interface BasePicture {
   readonly view: View;
   readonly palette: Palette;
   readonly scene: SceneMessage;
+  /** What no wall at rest covers, to be filled by the rule `evenodd`. */
+  readonly free: Path2D;
 }
 
 export interface MovingPicture extends BasePicture {

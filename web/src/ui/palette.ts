@@ -24,6 +24,8 @@ const NAMES = [
   'magnet-line',
   'goal',
   'danger',
+  'm-ink',
+  'm-cursor',
   'm-goal',
   'm-danger',
   'sensed',

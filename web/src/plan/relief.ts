@@ -1,0 +1,250 @@
+// The walls as tissue: rim, lip, terraces around the lumen, light from the upper left, and a shadow on the floor. It is
+// painted once per map, theme and view into bitmaps.
+
+import type { Palette } from '../ui/palette';
+import { rgb } from './colourRamp';
+import { tissueGrain } from './grain';
+import type { Ctx } from './sheet';
+import { pxRect, type View } from './transform';
+import { cornerPx, edgePath, framed, freePath, type Tray, trayPath, unitM } from './tray';
+
+/** Width of the wider lines around the lumen, and how much each darkens the tissue. */
+const TERRACES = [
+  [236, 0.12],
+  [168, 0.15],
+  [112, 0.19],
+  [64, 0.24],
+] as const;
+const RIM = 1.5;
+
+/** Pictures of a part of the canvas, in device pixels. */
+interface Shot {
+  readonly view: View;
+  readonly ratio: number;
+  readonly left: number;
+  readonly top: number;
+  readonly isWhole: boolean;
+  readonly canvas: HTMLCanvasElement;
+  /** The same without the free places, for walls that move. */
+  tissue: HTMLCanvasElement | undefined;
+}
+
+interface Softness {
+  readonly colour: string;
+  readonly blur: number;
+  readonly to?: readonly [number, number];
+}
+
+/** Draws the blurred shadow of a shape without the shape. Filters would need a newer browser. */
+function soften(
+  ctx: Ctx,
+  ratio: number,
+  { colour, blur, to = [0, 0] }: Softness,
+  draw: () => void,
+): void {
+  const away = 2 * Math.max(ctx.canvas.width, ctx.canvas.height);
+  ctx.save();
+  ctx.shadowColor = colour;
+  ctx.shadowBlur = 2 * blur * ratio;
+  ctx.shadowOffsetX = to[0] * ratio + away;
+  ctx.shadowOffsetY = to[1] * ratio;
+  ctx.translate(-away / ratio, 0);
+  draw();
+  ctx.restore();
+}
+
+export class Relief {
+  private shots: readonly Shot[] = [];
+
+  constructor(
+    readonly tray: Tray,
+    private readonly palette: Palette,
+  ) {}
+
+  /** Draws the walls and their shadow. While the view changes, earlier bitmaps are scaled. */
+  draw(ctx: Ctx, view: View, isStill: boolean): void {
+    for (const shot of this.shotsFor(ctx, view, isStill)) this.copy(ctx, view, shot, shot.canvas);
+  }
+
+  /** A colour to fill walls with that are not at rest. */
+  fill(ctx: Ctx, view: View, isStill: boolean): CanvasPattern | string {
+    const shot = this.shotsFor(ctx, view, isStill)[0];
+    if (!shot) return this.palette.wall;
+    shot.tissue ??= this.paint(shot, (onto) => {
+      this.paintTissue(onto, shot);
+    });
+    const pattern = ctx.createPattern(shot.tissue, 'no-repeat');
+    const scale = view.pxPerM / shot.view.pxPerM;
+    pattern?.setTransform(
+      new DOMMatrix()
+        .translate(view.originX, view.originY)
+        .scale(scale)
+        .translate(shot.left / shot.ratio - shot.view.originX, shot.top / shot.ratio - shot.view.originY)
+        .scale(1 / shot.ratio),
+    );
+    return pattern ?? this.palette.wall;
+  }
+
+  /** The sharp bitmap of a view that is still; otherwise one of the whole tray, and the newest of a part of it. */
+  private shotsFor(ctx: Ctx, view: View, isStill: boolean): readonly Shot[] {
+    const ratio = ctx.getTransform().a;
+    const sharp = this.shots.find((shot) => shot.ratio === ratio && isSame(shot.view, view));
+    if (sharp) return [sharp];
+    const whole = this.shots.find(({ isWhole }) => isWhole);
+    if (!isStill && whole) return this.shots;
+    const shot = this.shoot(ctx.canvas, view, ratio);
+    this.shots = shot.isWhole || !whole ? [shot] : [whole, shot];
+    return [shot];
+  }
+
+  private shoot({ width, height }: HTMLCanvasElement, view: View, ratio: number): Shot {
+    const [x, y, wide, high] = pxRect(view, framed(this.tray.workspace)).map((px) => px * ratio) as [
+      number,
+      number,
+      number,
+      number,
+    ];
+    const [left, top] = [Math.max(0, Math.floor(x)), Math.max(0, Math.floor(y))];
+    const [right, bottom] = [
+      Math.min(width, Math.ceil(x + wide)),
+      Math.min(height, Math.ceil(y + high)),
+    ];
+    const canvas = document.createElement('canvas');
+    canvas.width = Math.max(1, right - left);
+    canvas.height = Math.max(1, bottom - top);
+    const isWhole = x >= -1 && y >= -1 && x + wide <= width + 1 && y + high <= height + 1;
+    const shot: Shot = { view, ratio, left, top, isWhole, canvas, tissue: undefined };
+    this.paint(
+      shot,
+      (ctx) => {
+        this.paintWalls(ctx, shot);
+      },
+      canvas,
+    );
+    return shot;
+  }
+
+  private copy(ctx: Ctx, view: View, shot: Shot, from: HTMLCanvasElement): void {
+    ctx.save();
+    if (isSame(shot.view, view)) {
+      ctx.resetTransform();
+      ctx.drawImage(from, shot.left, shot.top);
+    } else {
+      const scale = view.pxPerM / shot.view.pxPerM;
+      const x = view.originX + (shot.left / shot.ratio - shot.view.originX) * scale;
+      const y = view.originY + (shot.top / shot.ratio - shot.view.originY) * scale;
+      const [width, height] = [from.width, from.height].map((px) => (px / shot.ratio) * scale);
+      ctx.drawImage(from, x, y, width ?? 0, height ?? 0);
+    }
+    ctx.restore();
+  }
+
+  private paint(
+    { left, top, ratio, canvas: { width, height } }: Shot,
+    draw: (ctx: Ctx) => void,
+    onto = document.createElement('canvas'),
+  ): HTMLCanvasElement {
+    onto.width = width;
+    onto.height = height;
+    const ctx = onto.getContext('2d');
+    ctx?.setTransform(ratio, 0, 0, ratio, -left, -top);
+    if (ctx) draw(ctx);
+    return onto;
+  }
+
+  private paintTissue(ctx: Ctx, { view, ratio }: Shot): void {
+    const { palette, tray } = this;
+    const unit = unitM(tray.workspace) * view.pxPerM;
+    const edge = edgePath(tray, view);
+    const [left, top, width, height] = pxRect(view, framed(tray.workspace));
+    const shape = trayPath(tray.workspace, view);
+    ctx.save();
+    ctx.clip(shape);
+    ctx.fillStyle = palette.wall;
+    ctx.fillRect(left, top, width, height);
+    ctx.lineJoin = 'round';
+    ctx.lineCap = 'round';
+    for (const [wide, dark] of TERRACES) {
+      ctx.save();
+      ctx.translate(-0.6 * unit, -0.8 * unit);
+      ctx.globalAlpha = dark / 3;
+      ctx.strokeStyle = '#fff';
+      ctx.lineWidth = (wide + 2.4) * unit;
+      ctx.stroke(edge);
+      ctx.restore();
+      ctx.globalAlpha = dark;
+      ctx.strokeStyle = palette['wall-deep'];
+      ctx.lineWidth = wide * unit;
+      ctx.stroke(edge);
+    }
+    ctx.globalAlpha = 1;
+    soften(ctx, ratio, { colour: palette['wall-lip'], blur: 1.5 * unit }, () => {
+      ctx.lineWidth = 21 * unit;
+      ctx.stroke(edge);
+    });
+    const grain = tissueGrain(ctx);
+    if (grain) {
+      grain.setTransform(new DOMMatrix().translate(view.originX, view.originY).scale(unit));
+      ctx.fillStyle = grain;
+      ctx.fillRect(left, top, width, height);
+    }
+    const light = ctx.createLinearGradient(left, top, left + 0.35 * width, top + height);
+    light.addColorStop(0, 'rgb(255 255 255 / 0.04)');
+    light.addColorStop(0.6, 'rgb(255 255 255 / 0)');
+    light.addColorStop(1, 'rgb(58 15 12 / 0.08)');
+    ctx.fillStyle = light;
+    ctx.fillRect(left, top, width, height);
+    const inset = 0.8 * unit;
+    ctx.beginPath();
+    ctx.roundRect(
+      ...([left + inset, top + inset, width - 2 * inset, height - 2 * inset] as const),
+      cornerPx(tray.workspace, view) - inset,
+    );
+    ctx.strokeStyle = 'rgb(255 255 255 / 0.28)';
+    ctx.lineWidth = 1.4 * unit;
+    ctx.stroke();
+    ctx.restore();
+  }
+
+  private paintWalls(ctx: Ctx, shot: Shot): void {
+    const { palette, tray } = this;
+    const { view, ratio } = shot;
+    const unit = unitM(tray.workspace) * view.pxPerM;
+    const [free, edge] = [freePath(tray, view), edgePath(tray, view)];
+    const solid = trayPath(tray.workspace, view);
+    solid.addPath(free);
+    this.paintTissue(ctx, shot);
+    ctx.lineJoin = 'round';
+    ctx.save();
+    ctx.clip(solid, 'evenodd');
+    soften(ctx, ratio, { colour: 'rgb(255 255 255 / 0.22)', blur: 1.2 * unit, to: [1.5 * unit, 2 * unit] }, () => {
+      ctx.lineWidth = 2.6 * unit;
+      ctx.stroke(edge);
+    });
+    ctx.restore();
+    // The tissue covers the free places too: they become clear again, up to the middle of the rim.
+    ctx.save();
+    ctx.globalCompositeOperation = 'destination-out';
+    ctx.fill(free, 'evenodd');
+    ctx.restore();
+    ctx.save();
+    ctx.clip(free, 'evenodd');
+    const shade = (opacity: number): string =>
+      `rgb(${rgb(palette['wall-shade']).join(' ')} / ${String(opacity)})`;
+    for (const [opacity, blur, x, y] of [
+      [0.34, 4.2, 3, 5.5],
+      [0.16, 1.2, 1.2, 2],
+    ] as const) {
+      soften(ctx, ratio, { colour: shade(opacity), blur: blur * unit, to: [x * unit, y * unit] }, () => {
+        ctx.fill(solid, 'evenodd');
+      });
+    }
+    ctx.restore();
+    ctx.strokeStyle = palette['wall-rim'];
+    ctx.lineWidth = RIM * unit;
+    ctx.stroke(edge);
+  }
+}
+
+const isSame = (a: View, b: View): boolean =>
+  a.pxPerM === b.pxPerM && a.originX === b.originX && a.originY === b.originY;
