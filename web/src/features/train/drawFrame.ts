@@ -96,7 +96,7 @@ export function drawBase(ctx: Ctx, base: Base): void {
   if (values && layers.values) drawColours(ctx, view, values);
   relief.draw(ctx, view, true);
   if (cells && frame && layers.starts) drawStarts(ctx, base, cells, frame);
-  if (values && layers.arrows) drawArrows(ctx, view, palette, values);
+  if (values && layers.arrows) drawArrows(ctx, view, values);
   if (!cells) return;
   drawGoal(ctx, view, palette, cells.goal_m);
   const center = base.chosen === undefined ? undefined : cells.centers_m[base.chosen];
