@@ -10,9 +10,9 @@ import {
   type Accessor,
   type JSX,
 } from 'solid-js';
-import { fitView, pxFromWorld, tableViewOf, type View } from './transform';
+import { fitView, pxFromWorld, pxRect, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
-import { framed } from './tray';
+import { cornerPx, framed } from './tray';
 import { fogImage } from './fog';
 import { type Draw, type LiveLayer, type MovingPicture, shownParts, type UnderTool } from './layer';
 import { type Base, createPainter, type Picture } from './paint';
@@ -61,6 +61,14 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   const view = createMemo<View | undefined>(() => {
     const now = frame();
     return now && zoomedView(now, zoom());
+  });
+  const trayRect = createMemo((): Record<string, string> | undefined => {
+    const [now, workspace] = [view(), lab.scene()?.workspace];
+    if (!now || !workspace) return undefined;
+    const sides = pxRect(now, framed(workspace)).map((side) => `${String(side)}px`);
+    const [left = '', top = '', width = '', height = ''] = sides;
+    const corner = `${String(cornerPx(workspace, now))}px`;
+    return { left, top, width, height, 'border-radius': corner };
   });
   const map = createMemo(() => lab.scene()?.map);
   createEffect(on([map, () => props.whole?.()], () => setZoom(WHOLE), { defer: true }));
@@ -119,6 +127,9 @@ export function PlanView(props: SurfaceProps): JSX.Element {
 
   return (
     <>
+      <Show when={zoom() === WHOLE && trayRect()}>
+        {(rect) => <div class="tray" style={rect()} aria-hidden="true" />}
+      </Show>
       <ViewCanvas
         lab={lab}
         interaction={interaction}

@@ -1,6 +1,13 @@
 // The base map: layers that rarely change. The plan view draws it below the moving parts, the 3-D scene on its floor.
 
-import { createEffect, createMemo, createSignal, onCleanup, untrack, type Accessor } from 'solid-js';
+import {
+  createEffect,
+  createMemo,
+  createSignal,
+  onCleanup,
+  untrack,
+  type Accessor,
+} from 'solid-js';
 import { drawFloor } from './drawMap';
 import { drawMovedWalls } from './drawMovedWalls';
 import { type BasePicture, type Draw, type LiveLayer, shownParts } from './layer';
@@ -104,7 +111,7 @@ export function paintGround(ctx: Ctx, ground: Ground): void {
   const { view, palette, scene, relief, moved, isStill } = ground;
   drawFloor(ctx, scene.workspace, view, palette);
   for (const draw of ground.belowWalls) draw(ctx, ground);
-  if (moved) drawMovedWalls(ctx, ground, moved, relief.fill(ctx, view, isStill));
+  if (moved) drawMovedWalls(ctx, ground, moved, relief, isStill);
   else relief.draw(ctx, view, isStill);
 }
 

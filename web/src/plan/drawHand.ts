@@ -17,7 +17,13 @@ function drawLabel(ctx: Ctx, text: string, at: Vec2, widthPx: number, palette: P
   // To the left of the pointer if there is no space on the right.
   const isLeft = right + ctx.measureText(text).width > widthPx;
   const x = isLeft ? at[0] - LABEL_OFFSET_PX : right;
-  drawText(ctx, palette, text, [x, Math.max(12, at[1] - LABEL_OFFSET_PX)], isLeft ? 'right' : 'left');
+  drawText(
+    ctx,
+    palette,
+    text,
+    [x, Math.max(12, at[1] - LABEL_OFFSET_PX)],
+    isLeft ? 'right' : 'left',
+  );
 }
 
 /** How the hand pulls the bead. */

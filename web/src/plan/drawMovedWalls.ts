@@ -2,17 +2,19 @@
 
 import type { MovedWalls } from '../lab/movedWalls';
 import type { BasePicture } from './layer';
-import type { Ctx } from './sheet';
-import { trayPath, unitM } from './tray';
+import type { Relief } from './relief';
+import { contextOf, type Ctx } from './sheet';
+import type { Palette } from '../ui/palette';
+import { reliefPx, trayPath } from './tray';
 import { pxRect, type View } from './transform';
 
 const RIM = 1.5;
-/** Shadows on the floor, from wide to near: offset and opacity. */
-const SHADOWS = [
-  [4.2, 7.4, 0.09],
-  [3, 5.2, 0.11],
-  [1.6, 2.6, 0.14],
-] as const;
+/** Of the shadow on the floor: opacity, and pixels of the map per pixel of its picture, which makes it soft. */
+const SHADE = 0.3;
+const COARSE = 4;
+const SHADOW_TO = [2.8, 4.8] as const;
+
+let shadow: HTMLCanvasElement | undefined;
 
 /** A path around what is not free. The outlines are moved into the walls by `into_px`. */
 function wallPath(tray: Path2D, walls: MovedWalls, view: View, into_px: number): Path2D {
@@ -32,31 +34,40 @@ function wallPath(tray: Path2D, walls: MovedWalls, view: View, into_px: number):
   return path;
 }
 
+function drawShadow(ctx: Ctx, solid: Path2D, unit: number, palette: Palette): void {
+  const ratio = ctx.getTransform().a;
+  const [width, height] = [ctx.canvas.width / ratio, ctx.canvas.height / ratio];
+  shadow ??= document.createElement('canvas');
+  const onto = contextOf(shadow, { width, height }, ratio / COARSE);
+  if (!onto) return;
+  onto.translate(SHADOW_TO[0] * unit, SHADOW_TO[1] * unit);
+  onto.fillStyle = palette['wall-shade'];
+  onto.fill(solid);
+  ctx.globalAlpha = SHADE;
+  const [wide, high] = [shadow.width, shadow.height].map((px) => (px * COARSE) / ratio);
+  ctx.drawImage(shadow, 0, 0, wide ?? width, high ?? height);
+  ctx.globalAlpha = 1;
+}
+
 export function drawMovedWalls(
   ctx: Ctx,
   { scene, view, palette }: BasePicture,
   walls: MovedWalls,
-  tissue: CanvasPattern | string,
+  relief: Relief,
+  isStill: boolean,
 ): void {
-  const unit = unitM(scene.workspace) * view.pxPerM;
+  const unit = reliefPx(scene.workspace, view);
   const tray = trayPath(scene.workspace, view);
   const half = (RIM / 2) * unit;
-  // A line is slower to draw than two surfaces. The upper one hides loops of an outline that has closed in on itself.
   const outer = wallPath(tray, walls, view, -half);
   ctx.save();
   ctx.beginPath();
   ctx.rect(...pxRect(view, scene.workspace));
   ctx.clip();
-  ctx.fillStyle = palette['wall-shade'];
-  for (const [x, y, opacity] of SHADOWS) {
-    ctx.globalAlpha = opacity;
-    ctx.translate(x * unit, y * unit);
-    ctx.fill(outer);
-    ctx.translate(-x * unit, -y * unit);
-  }
+  drawShadow(ctx, outer, unit, palette);
   ctx.restore();
+  // A line is slower to draw than two surfaces. The upper one hides loops of an outline that has closed in on itself.
   ctx.fillStyle = palette['wall-rim'];
   ctx.fill(outer);
-  ctx.fillStyle = tissue;
-  ctx.fill(wallPath(tray, walls, view, half));
+  relief.drawMoved(ctx, view, isStill, wallPath(tray, walls, view, half));
 }

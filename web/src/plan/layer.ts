@@ -9,7 +9,7 @@ import type { Ctx } from './sheet';
 import type { Palette } from '../ui/palette';
 
 /** Headings of the menu, in its order. */
-export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm'] as const;
+export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm', 'Map'] as const;
 
 export interface BasePicture {
   readonly view: View;

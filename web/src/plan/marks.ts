@@ -118,7 +118,10 @@ export class Labels {
     ];
     const edge = ctx.canvas.width / ctx.getTransform().a;
     const isFree = (box: Box): boolean =>
-      box[0] > 2 && box[2] < edge - 2 && box[1] > 2 && this.taken.every((one) => areApart(one, box));
+      box[0] > 2 &&
+      box[2] < edge - 2 &&
+      box[1] > 2 &&
+      this.taken.every((one) => areApart(one, box));
     const box = boxes.find(isFree) ?? boxAt(x + aside, y);
     this.taken.push(box);
     drawText(ctx, palette, text, [box[0], box[1] + half]);

@@ -4,9 +4,9 @@
 import type { Palette } from '../ui/palette';
 import { rgb } from './colourRamp';
 import { tissueGrain } from './grain';
-import type { Ctx } from './sheet';
+import { contextOf, type Ctx } from './sheet';
 import { pxRect, type View } from './transform';
-import { cornerPx, edgePath, framed, freePath, type Tray, trayPath, unitM } from './tray';
+import { cornerPx, edgePath, framed, freePath, type Tray, reliefPx, trayPath, unitM } from './tray';
 
 /** Width of the wider lines around the lumen, and how much each darkens the tissue. */
 const TERRACES = [
@@ -55,6 +55,7 @@ function soften(
 
 export class Relief {
   private shots: readonly Shot[] = [];
+  private moved: HTMLCanvasElement | undefined;
 
   constructor(
     readonly tray: Tray,
@@ -66,23 +67,27 @@ export class Relief {
     for (const shot of this.shotsFor(ctx, view, isStill)) this.copy(ctx, view, shot, shot.canvas);
   }
 
-  /** A colour to fill walls with that are not at rest. */
-  fill(ctx: Ctx, view: View, isStill: boolean): CanvasPattern | string {
-    const shot = this.shotsFor(ctx, view, isStill)[0];
-    if (!shot) return this.palette.wall;
-    shot.tissue ??= this.paint(shot, (onto) => {
-      this.paintTissue(onto, shot);
-    });
-    const pattern = ctx.createPattern(shot.tissue, 'no-repeat');
-    const scale = view.pxPerM / shot.view.pxPerM;
-    pattern?.setTransform(
-      new DOMMatrix()
-        .translate(view.originX, view.originY)
-        .scale(scale)
-        .translate(shot.left / shot.ratio - shot.view.originX, shot.top / shot.ratio - shot.view.originY)
-        .scale(1 / shot.ratio),
-    );
-    return pattern ?? this.palette.wall;
+  /** Draws tissue where `solid` is, for walls that are not at rest. Filling with a pattern would be much slower. */
+  drawMoved(ctx: Ctx, view: View, isStill: boolean, solid: Path2D): void {
+    const shots = this.shotsFor(ctx, view, isStill);
+    const { width, height } = ctx.canvas;
+    const sheet = (this.moved ??= document.createElement('canvas'));
+    const ratio = ctx.getTransform().a;
+    const onto = contextOf(sheet, { width: width / ratio, height: height / ratio }, ratio);
+    if (!onto) return;
+    onto.fill(solid);
+    onto.globalCompositeOperation = 'source-atop';
+    for (const shot of shots) {
+      shot.tissue ??= this.paint(shot, (tissue) => {
+        this.paintTissue(tissue, shot);
+      });
+      this.copy(onto, view, shot, shot.tissue);
+    }
+    onto.globalCompositeOperation = 'source-over';
+    ctx.save();
+    ctx.resetTransform();
+    ctx.drawImage(sheet, 0, 0);
+    ctx.restore();
   }
 
   /** The sharp bitmap of a view that is still; otherwise one of the whole tray, and the newest of a part of it. */
@@ -98,12 +103,9 @@ export class Relief {
   }
 
   private shoot({ width, height }: HTMLCanvasElement, view: View, ratio: number): Shot {
-    const [x, y, wide, high] = pxRect(view, framed(this.tray.workspace)).map((px) => px * ratio) as [
-      number,
-      number,
-      number,
-      number,
-    ];
+    const [x, y, wide, high] = pxRect(view, framed(this.tray.workspace)).map(
+      (px) => px * ratio,
+    ) as [number, number, number, number];
     const [left, top] = [Math.max(0, Math.floor(x)), Math.max(0, Math.floor(y))];
     const [right, bottom] = [
       Math.min(width, Math.ceil(x + wide)),
@@ -209,7 +211,7 @@ export class Relief {
   private paintWalls(ctx: Ctx, shot: Shot): void {
     const { palette, tray } = this;
     const { view, ratio } = shot;
-    const unit = unitM(tray.workspace) * view.pxPerM;
+    const unit = reliefPx(tray.workspace, view);
     const [free, edge] = [freePath(tray, view), edgePath(tray, view)];
     const solid = trayPath(tray.workspace, view);
     solid.addPath(free);
@@ -217,10 +219,15 @@ export class Relief {
     ctx.lineJoin = 'round';
     ctx.save();
     ctx.clip(solid, 'evenodd');
-    soften(ctx, ratio, { colour: 'rgb(255 255 255 / 0.22)', blur: 1.2 * unit, to: [1.5 * unit, 2 * unit] }, () => {
-      ctx.lineWidth = 2.6 * unit;
-      ctx.stroke(edge);
-    });
+    soften(
+      ctx,
+      ratio,
+      { colour: 'rgb(255 255 255 / 0.22)', blur: 1.2 * unit, to: [1.5 * unit, 2 * unit] },
+      () => {
+        ctx.lineWidth = 2.6 * unit;
+        ctx.stroke(edge);
+      },
+    );
     ctx.restore();
     // The tissue covers the free places too: they become clear again, up to the middle of the rim.
     ctx.save();
@@ -235,9 +242,14 @@ export class Relief {
       [0.34, 4.2, 3, 5.5],
       [0.16, 1.2, 1.2, 2],
     ] as const) {
-      soften(ctx, ratio, { colour: shade(opacity), blur: blur * unit, to: [x * unit, y * unit] }, () => {
-        ctx.fill(solid, 'evenodd');
-      });
+      soften(
+        ctx,
+        ratio,
+        { colour: shade(opacity), blur: blur * unit, to: [x * unit, y * unit] },
+        () => {
+          ctx.fill(solid, 'evenodd');
+        },
+      );
     }
     ctx.restore();
     ctx.strokeStyle = palette['wall-rim'];

@@ -5,6 +5,7 @@ import { grown, pxFromWorld, pxRect, type View } from './transform';
 
 /** The longer side of a workspace has so many units, so that all trays look alike. One is a millimetre of a usual one. */
 const UNITS = 580;
+const MOST_RELIEF_PX = 2.6;
 const FRAME = 6;
 const CORNER = 11;
 /** Points nearer to the border are on it. */
@@ -17,6 +18,11 @@ export interface Tray {
 
 export function unitM({ x_min_m, x_max_m, y_min_m, y_max_m }: Rect): number {
   return Math.max(x_max_m - x_min_m, y_max_m - y_min_m) / UNITS;
+}
+
+/** Length of a unit of rim, light and shadow in pixels. In a near view they do not grow with the map. */
+export function reliefPx(workspace: Rect, view: View): number {
+  return Math.min(MOST_RELIEF_PX, unitM(workspace) * view.pxPerM);
 }
 
 /** The workspace with the frame around it. */

@@ -7,10 +7,7 @@ import { pxFromWorld } from '../../plan/transform';
 import { sectorsOf } from './sectors';
 import type { Ctx } from '../../plan/sheet';
 
-export function drawCapture(
-  ctx: Ctx,
-  { view, palette, scene, free, state }: MovingPicture,
-): void {
+export function drawCapture(ctx: Ctx, { view, palette, scene, free, state }: MovingPicture): void {
   const [toolX_m, toolY_m] = state.tool_m;
   const px = ([x_m, y_m]: Vec2): Vec2 => pxFromWorld(view, [toolX_m + x_m, toolY_m + y_m]);
   const [fill, edge] = [new Path2D(), new Path2D()];
@@ -29,5 +26,5 @@ export function drawCapture(
   ctx.globalAlpha = 0.16;
   ctx.fill(fill);
   ctx.restore();
-  strokeCased(ctx, palette, { colour: palette.magnet, width_px: 1.8 }, edge);
+  strokeCased(ctx, palette, { colour: palette.magnet, width_px: 1.5 }, edge);
 }
