@@ -1,13 +1,8 @@
-// The grain of tissue: a tile of soft noise that repeats.
+// The grain of tissue: soft noise on a tile that repeats. Pure.
 
-import { imageOf } from './pixels';
-import type { Ctx } from './sheet';
-
-const SIDE_PX = 256;
-/** Cells of each octave along a side. The noise of a cell is half as strong in the next one. */
+export const GRAIN_PX = 256;
+/** Cells of each octave along a side. The noise of an octave is half as strong as that of the one before. */
 const OCTAVES = [13, 26, 52];
-const COLOUR = [64, 20, 13] as const;
-const MOST_ALPHA = 13;
 const SEED = 7;
 
 /** A number from 0 to 1 for each place of a lattice; the same at every start. */
@@ -23,7 +18,7 @@ const mix = (a: number, b: number, share: number): number => a + share * (b - a)
 function grainAt(x: number, y: number): number {
   let [sum, most] = [0, 0];
   OCTAVES.forEach((cells, octave) => {
-    const [u, v] = [(x * cells) / SIDE_PX, (y * cells) / SIDE_PX];
+    const [u, v] = [(x * cells) / GRAIN_PX, (y * cells) / GRAIN_PX];
     const [column, row] = [Math.floor(u), Math.floor(v)];
     const at = (dx: number, dy: number): number =>
       noiseAt((column + dx) % cells, (row + dy) % cells, octave);
@@ -35,17 +30,12 @@ function grainAt(x: number, y: number): number {
   return sum / most;
 }
 
-let tile: HTMLCanvasElement | undefined;
+let tile: Float32Array | undefined;
 
-/** One pixel of the tile is one unit of the pattern. */
-export function tissueGrain(ctx: Ctx): CanvasPattern | null {
-  if (!tile) {
-    const pixels = new Uint8ClampedArray(4 * SIDE_PX * SIDE_PX);
-    for (let i = 0; i < SIDE_PX * SIDE_PX; i++) {
-      const grain = grainAt(i % SIDE_PX, Math.floor(i / SIDE_PX));
-      pixels.set([...COLOUR, MOST_ALPHA * Math.max(0, 1.8 * grain - 0.6)], 4 * i);
-    }
-    tile = imageOf(pixels, SIDE_PX);
-  }
-  return ctx.createPattern(tile, 'repeat');
+/** 0 to 1 at each pixel of the tile, row after row. */
+export function tissueGrain(): Float32Array {
+  tile ??= Float32Array.from({ length: GRAIN_PX * GRAIN_PX }, (_, i) =>
+    grainAt(i % GRAIN_PX, Math.floor(i / GRAIN_PX)),
+  );
+  return tile;
 }

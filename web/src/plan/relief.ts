@@ -3,18 +3,11 @@
 
 import type { Palette } from '../ui/palette';
 import { rgb } from './colourRamp';
-import { tissueGrain } from './grain';
 import { contextOf, type Ctx } from './sheet';
+import { tissueImage } from './tissue';
 import { pxRect, type View } from './transform';
 import { cornerPx, edgePath, framed, freePath, type Tray, reliefPx, trayPath, unitM } from './tray';
 
-/** Width of the wider lines around the lumen, and how much each darkens the tissue. */
-const TERRACES = [
-  [236, 0.12],
-  [168, 0.15],
-  [112, 0.19],
-  [64, 0.24],
-] as const;
 const RIM = 1.5;
 
 /** Pictures of a part of the canvas, in device pixels. */
@@ -24,8 +17,11 @@ interface Shot {
   readonly left: number;
   readonly top: number;
   readonly isWhole: boolean;
-  readonly canvas: HTMLCanvasElement;
-  /** The same without the free places, for walls that move. */
+  readonly width: number;
+  readonly height: number;
+  /** Walls and their shadow. */
+  walls: HTMLCanvasElement | undefined;
+  /** The tissue alone, without free places. */
   tissue: HTMLCanvasElement | undefined;
 }
 
@@ -56,6 +52,7 @@ function soften(
 export class Relief {
   private shots: readonly Shot[] = [];
   private moved: HTMLCanvasElement | undefined;
+  private image: HTMLCanvasElement | undefined;
 
   constructor(
     readonly tray: Tray,
@@ -64,7 +61,12 @@ export class Relief {
 
   /** Draws the walls and their shadow. While the view changes, earlier bitmaps are scaled. */
   draw(ctx: Ctx, view: View, isStill: boolean): void {
-    for (const shot of this.shotsFor(ctx, view, isStill)) this.copy(ctx, view, shot, shot.canvas);
+    for (const shot of this.shotsFor(ctx, view, isStill)) {
+      shot.walls ??= this.paint(shot, (onto) => {
+        this.paintWalls(onto, shot);
+      });
+      this.copy(ctx, view, shot, shot.walls);
+    }
   }
 
   /** Draws tissue where `solid` is, for walls that are not at rest. Filling with a pattern would be much slower. */
@@ -78,10 +80,7 @@ export class Relief {
     onto.fill(solid);
     onto.globalCompositeOperation = 'source-atop';
     for (const shot of shots) {
-      shot.tissue ??= this.paint(shot, (tissue) => {
-        this.paintTissue(tissue, shot);
-      });
-      this.copy(onto, view, shot, shot.tissue);
+      this.copy(onto, view, shot, this.tissueOf(shot));
     }
     onto.globalCompositeOperation = 'source-over';
     ctx.save();
@@ -111,19 +110,18 @@ export class Relief {
       Math.min(width, Math.ceil(x + wide)),
       Math.min(height, Math.ceil(y + high)),
     ];
-    const canvas = document.createElement('canvas');
-    canvas.width = Math.max(1, right - left);
-    canvas.height = Math.max(1, bottom - top);
     const isWhole = x >= -1 && y >= -1 && x + wide <= width + 1 && y + high <= height + 1;
-    const shot: Shot = { view, ratio, left, top, isWhole, canvas, tissue: undefined };
-    this.paint(
-      shot,
-      (ctx) => {
-        this.paintWalls(ctx, shot);
-      },
-      canvas,
-    );
-    return shot;
+    return {
+      ...{ view, ratio, left, top, isWhole, walls: undefined, tissue: undefined },
+      width: Math.max(1, right - left),
+      height: Math.max(1, bottom - top),
+    };
+  }
+
+  private tissueOf(shot: Shot): HTMLCanvasElement {
+    return (shot.tissue ??= this.paint(shot, (ctx) => {
+      this.paintTissue(ctx, shot);
+    }));
   }
 
   private copy(ctx: Ctx, view: View, shot: Shot, from: HTMLCanvasElement): void {
@@ -141,55 +139,24 @@ export class Relief {
     ctx.restore();
   }
 
-  private paint(
-    { left, top, ratio, canvas: { width, height } }: Shot,
-    draw: (ctx: Ctx) => void,
-    onto = document.createElement('canvas'),
-  ): HTMLCanvasElement {
-    onto.width = width;
-    onto.height = height;
-    const ctx = onto.getContext('2d');
+  private paint({ left, top, ratio, width, height }: Shot, draw: (ctx: Ctx) => void): HTMLCanvasElement {
+    const canvas = document.createElement('canvas');
+    canvas.width = width;
+    canvas.height = height;
+    const ctx = canvas.getContext('2d');
     ctx?.setTransform(ratio, 0, 0, ratio, -left, -top);
     if (ctx) draw(ctx);
-    return onto;
+    return canvas;
   }
 
-  private paintTissue(ctx: Ctx, { view, ratio }: Shot): void {
+  private paintTissue(ctx: Ctx, { view }: Shot): void {
     const { palette, tray } = this;
     const unit = unitM(tray.workspace) * view.pxPerM;
-    const edge = edgePath(tray, view);
     const [left, top, width, height] = pxRect(view, framed(tray.workspace));
-    const shape = trayPath(tray.workspace, view);
     ctx.save();
-    ctx.clip(shape);
-    ctx.fillStyle = palette.wall;
-    ctx.fillRect(left, top, width, height);
-    ctx.lineJoin = 'round';
-    ctx.lineCap = 'round';
-    for (const [wide, dark] of TERRACES) {
-      ctx.save();
-      ctx.translate(-0.6 * unit, -0.8 * unit);
-      ctx.globalAlpha = dark / 3;
-      ctx.strokeStyle = '#fff';
-      ctx.lineWidth = (wide + 2.4) * unit;
-      ctx.stroke(edge);
-      ctx.restore();
-      ctx.globalAlpha = dark;
-      ctx.strokeStyle = palette['wall-deep'];
-      ctx.lineWidth = wide * unit;
-      ctx.stroke(edge);
-    }
-    ctx.globalAlpha = 1;
-    soften(ctx, ratio, { colour: palette['wall-lip'], blur: 1.5 * unit }, () => {
-      ctx.lineWidth = 21 * unit;
-      ctx.stroke(edge);
-    });
-    const grain = tissueGrain(ctx);
-    if (grain) {
-      grain.setTransform(new DOMMatrix().translate(view.originX, view.originY).scale(unit));
-      ctx.fillStyle = grain;
-      ctx.fillRect(left, top, width, height);
-    }
+    ctx.clip(trayPath(tray.workspace, view));
+    this.image ??= tissueImage(tray, palette);
+    if (this.image) ctx.drawImage(this.image, left, top, width, height);
     const light = ctx.createLinearGradient(left, top, left + 0.35 * width, top + height);
     light.addColorStop(0, 'rgb(255 255 255 / 0.04)');
     light.addColorStop(0.6, 'rgb(255 255 255 / 0)');
@@ -215,7 +182,7 @@ export class Relief {
     const [free, edge] = [freePath(tray, view), edgePath(tray, view)];
     const solid = trayPath(tray.workspace, view);
     solid.addPath(free);
-    this.paintTissue(ctx, shot);
+    this.copy(ctx, view, shot, this.tissueOf(shot));
     ctx.lineJoin = 'round';
     ctx.save();
     ctx.clip(solid, 'evenodd');
