@@ -14,6 +14,8 @@ const LABEL_HEIGHT_PX = 16;
 
 export interface Line {
   readonly colour: string;
+  /** Colour of the casing, if it is another one than usual. */
+  readonly edge?: string;
   readonly width_px: number;
   readonly dash?: readonly number[];
 }
@@ -27,7 +29,7 @@ export function strokeCased(ctx: Ctx, palette: Palette, line: Line, path?: Path2
   ctx.save();
   ctx.lineJoin = 'round';
   ctx.lineCap = 'round';
-  ctx.strokeStyle = palette.case;
+  ctx.strokeStyle = line.edge ?? palette.case;
   ctx.lineWidth = line.width_px + 2 * CASE_PX;
   stroke();
   ctx.strokeStyle = line.colour;

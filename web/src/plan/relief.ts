@@ -139,7 +139,10 @@ export class Relief {
     ctx.restore();
   }
 
-  private paint({ left, top, ratio, width, height }: Shot, draw: (ctx: Ctx) => void): HTMLCanvasElement {
+  private paint(
+    { left, top, ratio, width, height }: Shot,
+    draw: (ctx: Ctx) => void,
+  ): HTMLCanvasElement {
     const canvas = document.createElement('canvas');
     canvas.width = width;
     canvas.height = height;
@@ -182,7 +185,10 @@ export class Relief {
     const [free, edge] = [freePath(tray, view), edgePath(tray, view)];
     const solid = trayPath(tray.workspace, view);
     solid.addPath(free);
-    this.copy(ctx, view, shot, this.tissueOf(shot));
+    ctx.save();
+    ctx.resetTransform();
+    ctx.drawImage(this.tissueOf(shot), 0, 0);
+    ctx.restore();
     ctx.lineJoin = 'round';
     ctx.save();
     ctx.clip(solid, 'evenodd');

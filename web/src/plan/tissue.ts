@@ -40,7 +40,11 @@ export function tissueImage(tray: Tray, palette: Palette): HTMLCanvasElement | u
   ctx.fill(freePath(tray, fitView(rect, columns, rows)), 'evenodd');
   const { data } = ctx.getImageData(0, 0, columns, rows);
   const distances = distancesFrom((pixel) => (data[4 * pixel + 3] ?? 0) > 127, columns, rows);
-  const [wall, deep, lip] = [rgb(palette.wall), rgb(palette['wall-deep']), rgb(palette['wall-lip'])];
+  const [wall, deep, lip] = [
+    rgb(palette.wall),
+    rgb(palette['wall-deep']),
+    rgb(palette['wall-lip']),
+  ];
   const grain = tissueGrain();
   const pixels = new Uint8ClampedArray(4 * columns * rows);
   distances.forEach((distance, i) => {

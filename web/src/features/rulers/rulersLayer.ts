@@ -1,13 +1,15 @@
-// Rulers along two sides of the workspace.
+// Rulers along two sides of the workspace, in centimetres.
 
 import { drawText, strokeCased } from '../../plan/marks';
 import { gridStepM, multiples } from '../../plan/drawMap';
 import type { BasePicture, Draw, MapLayer } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
-import { centimetres } from '../../ui/format';
+import { fixed } from '../../ui/format';
 
 const TICK_PX = 7;
 const GAP_PX = 14;
+
+const inCm = (place_m: number): string => fixed(100 * place_m, 0);
 
 const drawRulers: Draw<BasePicture> = (ctx, { view, palette, scene }) => {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
@@ -34,14 +36,14 @@ const drawRulers: Draw<BasePicture> = (ctx, { view, palette, scene }) => {
   }
   strokeCased(ctx, palette, { colour: palette['m-ink'], width_px: 1.5 });
   for (const [x_m, x] of along) {
-    drawText(ctx, palette, centimetres(x_m, 0), [x, bottom - GAP_PX], 'center');
+    drawText(ctx, palette, inCm(x_m), [x, bottom - GAP_PX], 'center');
   }
-  for (const [y_m, y] of up) drawText(ctx, palette, centimetres(y_m, 0), [left + GAP_PX - 3, y]);
+  for (const [y_m, y] of up) drawText(ctx, palette, inCm(y_m), [left + GAP_PX - 3, y]);
 };
 
 export const RULERS_LAYER: MapLayer = {
   id: 'rulers',
-  label: 'Rulers',
+  label: 'Rulers, cm',
   swatch: ['m-ink'],
   group: 'Map',
   isSensed: true,

@@ -12,6 +12,7 @@ import { Relief } from '../../plan/relief';
 import { createValues } from '../../plan/drawValues';
 import { ARROWS } from '../../plan/gesture';
 import { contextOf } from '../../plan/sheet';
+import { framed } from '../../plan/tray';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
 import { onSize, type Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
@@ -19,7 +20,7 @@ import { drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
 import { around, cellAt, grown, valueCells } from './grid';
 import { palette } from '../../ui/palette';
 
-const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
+const MARGIN = { left: 2, right: 2, top: 2, bottom: 2 };
 const STEPS_PER_S = 14;
 /** The ends of the episodes are shown for as many steps. */
 const REST_STEPS = 14;
@@ -47,7 +48,8 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   );
   const shown = createMemo(() => {
     const [rect, { cells }] = [workspace(), props];
-    return rect && cells ? grown(rect, cells.goal_m, GOAL_RADIUS_M) : rect;
+    const tray = rect && framed(rect);
+    return tray && cells ? grown(tray, cells.goal_m, GOAL_RADIUS_M) : tray;
   });
   const shape = (): string | undefined => {
     const rect = shown();
