@@ -22,6 +22,7 @@ function open() {
       moveTo = noDraw;
       lineTo = noDraw;
       closePath = noDraw;
+      rect = noDraw;
     },
   );
   const [scene, setScene] = createSignal(sceneOf('posts'));

@@ -17,8 +17,8 @@ const MARKS: readonly Mark[] = [
     help: 'The tool with the magnet, seen from above.',
     icon: () => (
       <g class="tool">
-        <circle cx="10" cy="8" r="4" />
-        <path d="M10 4V1M10 12v3M6 8H3M14 8h3" />
+        <path class="north" d="M9 2.5a5.6 5.6 0 0 0 0 11" />
+        <path class="south" d="M11 2.5a5.6 5.6 0 0 1 0 11" />
       </g>
     ),
   },
@@ -38,7 +38,7 @@ const MARKS: readonly Mark[] = [
     icon: () => (
       <g class="goal">
         <circle cx="10" cy="8" r="6" />
-        <path d="M10 5v6M7 8h6" />
+        <path class="flag" d="M8.5 11V5l4 1.6-4 1.6" />
       </g>
     ),
   },
@@ -57,7 +57,7 @@ const MARKS: readonly Mark[] = [
     layer: 'camera',
     name: 'view',
     help: 'What the camera on the arm sees.',
-    icon: () => <rect class="view" x="3" y="2" width="14" height="12" />,
+    icon: () => <path class="view" d="M3 5V2h3M14 2h3v3M17 11v3h-3M6 14H3v-3" />,
   },
   {
     layer: 'sensed',
@@ -68,7 +68,7 @@ const MARKS: readonly Mark[] = [
   {
     layer: 'trail',
     name: 'trails',
-    help: 'Where magnet and bead have been.',
+    help: 'Where the bead has been, in the colour and dash of the controller that carried it. Thin: the magnet.',
     icon: () => (
       <>
         <path class="tool-trail" d="M2 5h16" />

@@ -29,7 +29,7 @@ const LAYERS: readonly (readonly [keyof Layers, label: string, title: string])[]
   ['values', 'Values', 'What the policy expects from each cell'],
   ['arrows', 'Best steps', 'The step with the highest value at each cell'],
   ['starts', 'Failing starts', 'Cells from which the best steps do not lead to the shown goal'],
-  ['episodes', 'Episodes', 'Some episodes to the goal, again and again'],
+  ['episodes', 'Episodes', 'Some episodes to the goal, again and again; dotted: with random steps'],
 ];
 
 export function LayerToggles(): JSX.Element {

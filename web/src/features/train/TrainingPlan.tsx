@@ -8,10 +8,11 @@ import {
   type TrainingCells,
   type TrainingFrame,
 } from '../../net/protocol.gen';
-import { wallPath } from '../../plan/drawMap';
+import { Relief } from '../../plan/relief';
 import { createValues } from '../../plan/drawValues';
 import { ARROWS } from '../../plan/gesture';
 import { contextOf } from '../../plan/sheet';
+import { framed } from '../../plan/tray';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
 import { onSize, type Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
@@ -19,7 +20,7 @@ import { drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
 import { around, cellAt, grown, valueCells } from './grid';
 import { palette } from '../../ui/palette';
 
-const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
+const MARGIN = { left: 2, right: 2, top: 2, bottom: 2 };
 const STEPS_PER_S = 14;
 /** The ends of the episodes are shown for as many steps. */
 const REST_STEPS = 14;
@@ -47,7 +48,8 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   );
   const shown = createMemo(() => {
     const [rect, { cells }] = [workspace(), props];
-    return rect && cells ? grown(rect, cells.goal_m, GOAL_RADIUS_M) : rect;
+    const tray = rect && framed(rect);
+    return tray && cells ? grown(tray, cells.goal_m, GOAL_RADIUS_M) : tray;
   });
   const shape = (): string | undefined => {
     const rect = shown();
@@ -57,9 +59,9 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
     const [rect, now] = [shown(), size()];
     return rect && now && fitView(rect, now.width, now.height, MARGIN);
   });
-  const walls = createMemo(() => {
-    const now = view();
-    return now && wallPath(props.map?.outlines ?? [], now);
+  const relief = createMemo(() => {
+    const rect = workspace();
+    return rect && new Relief({ workspace: rect, walls: props.map?.outlines ?? [] }, palette());
   });
   const values = createMemo(() => {
     const { cells, frame, range } = props;
@@ -68,12 +70,12 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   onMount(() => {
     onSize(base, setSize);
     createEffect(() => {
-      const [now, px, rect, outlines] = [view(), size(), workspace(), walls()];
+      const [now, px, walls] = [view(), size(), relief()];
       const { layers, cells, frame, chosen } = props;
       const ctx = px && contextOf(base, px);
-      if (!ctx || !now || !rect || !outlines) return;
+      if (!ctx || !now || !walls) return;
       drawBase(ctx, {
-        ...{ view: now, palette: palette(), workspace: rect, walls: outlines, layers },
+        ...{ view: now, palette: palette(), relief: walls, layers },
         ...{ cells, frame, chosen, values: values() },
       });
     });

@@ -3,14 +3,15 @@
 import type { Vec2 } from '../../lab/geometry';
 import type {
   EpisodeEnding,
-  Rect,
   TrainingCells,
   TrainingEpisode,
   TrainingFrame,
 } from '../../net/protocol.gen';
-import { drawFloor, drawOutlines } from '../../plan/drawMap';
+import { drawFloor } from '../../plan/drawMap';
+import type { Relief } from '../../plan/relief';
 import { drawGoal } from '../../plan/drawMoving';
 import { drawArrows, drawColours, type Values } from '../../plan/drawValues';
+import { strokeCased } from '../../plan/marks';
 import { pxFromWorld, type View } from '../../plan/transform';
 import { placeAfter, startsThat } from './grid';
 import type { Palette } from '../../ui/palette';
@@ -27,8 +28,7 @@ export interface Layers {
 interface Base {
   readonly view: View;
   readonly palette: Palette;
-  readonly workspace: Rect;
-  readonly walls: Path2D;
+  readonly relief: Relief;
   readonly layers: Layers;
   readonly cells: TrainingCells | undefined;
   readonly frame: TrainingFrame | undefined;
@@ -73,31 +73,24 @@ function drawStarts(ctx: Ctx, base: Base, cells: TrainingCells, frame: TrainingF
       markOf(ending)(path, [x + CORNER * side, y + CORNER * side], half);
     }
   }
-  ctx.strokeStyle = palette.danger;
-  ctx.lineWidth = Math.min(1.5, 0.9 * half);
-  ctx.stroke(path);
+  strokeCased(ctx, palette, { colour: palette['m-danger'], width_px: Math.min(1.6, half) }, path);
 }
 
 function drawChosen(ctx: Ctx, { view, palette }: Base, cells: TrainingCells, center: Vec2): void {
   const side = Math.max(9, cells.spacing_m * view.pxPerM + 2);
   const [x, y] = pxFromWorld(view, center);
-  for (const [colour, width] of [
-    [palette.floor, 5],
-    [palette.accent, 2.5],
-  ] as const) {
-    ctx.strokeStyle = colour;
-    ctx.lineWidth = width;
-    ctx.strokeRect(x - side / 2, y - side / 2, side, side);
-  }
+  ctx.beginPath();
+  ctx.rect(x - side / 2, y - side / 2, side, side);
+  strokeCased(ctx, palette, { colour: palette['m-cursor'], width_px: 2.5 });
 }
 
 export function drawBase(ctx: Ctx, base: Base): void {
-  const { view, palette, layers, cells, frame, values } = base;
-  drawFloor(ctx, base.workspace, view, palette);
+  const { view, palette, relief, layers, cells, frame, values } = base;
+  drawFloor(ctx, relief.tray.workspace, view, palette);
   if (values && layers.values) drawColours(ctx, view, values);
-  drawOutlines(ctx, base.workspace, base.walls, view, palette);
+  relief.draw(ctx, view, true);
   if (cells && frame && layers.starts) drawStarts(ctx, base, cells, frame);
-  if (values && layers.arrows) drawArrows(ctx, view, palette, values);
+  if (values && layers.arrows) drawArrows(ctx, view, values);
   if (!cells) return;
   drawGoal(ctx, view, palette, cells.goal_m);
   const center = base.chosen === undefined ? undefined : cells.centers_m[base.chosen];
@@ -105,7 +98,11 @@ export function drawBase(ctx: Ctx, base: Base): void {
 }
 
 const DOT_PX = 4.5;
-const PATH_ALPHA = 0.55;
+/** White on black is seen on every colour of a value. */
+const EPISODE = '#ffffff';
+const EPISODE_EDGE = '#1b1108';
+/** Of an episode with random steps. */
+const RANDOM_DASH = [0.1, 5];
 
 function drawEpisode(
   ctx: Ctx,
@@ -118,10 +115,7 @@ function drawEpisode(
   const { view, palette } = base;
   const at = placeAfter(cells, episode, steps);
   if (!at) return;
-  ctx.strokeStyle = isGreedy ? palette.magnet : palette.bead;
-  ctx.globalAlpha = PATH_ALPHA;
-  ctx.lineWidth = 1.5;
-  ctx.setLineDash(isGreedy ? [] : [3, 3]);
+  const line = { colour: EPISODE, edge: EPISODE_EDGE, width_px: 2.2 };
   ctx.beginPath();
   for (const index of episode.cells.slice(0, Math.floor(steps) + 1)) {
     const center = cells.centers_m[index];
@@ -129,25 +123,19 @@ function drawEpisode(
   }
   const [x, y] = pxFromWorld(view, at);
   ctx.lineTo(x, y);
-  ctx.stroke();
-  ctx.setLineDash([]);
-  ctx.globalAlpha = 1;
+  strokeCased(ctx, palette, isGreedy ? line : { ...line, dash: RANDOM_DASH });
   const isOver = steps >= episode.cells.length - 1;
   if (isOver && episode.ending !== 'reached') {
     const path = new Path2D();
     markOf(episode.ending)(path, [x, y], DOT_PX);
-    ctx.strokeStyle = isGreedy ? palette.magnet : palette.bead;
-    ctx.lineWidth = 2.5;
-    ctx.stroke(path);
+    strokeCased(ctx, palette, { colour: palette['m-danger'], width_px: 2.5 }, path);
     return;
   }
   ctx.beginPath();
   ctx.arc(x, y, DOT_PX, 0, 2 * Math.PI);
-  ctx.fillStyle = isGreedy ? palette.magnet : palette.floor;
+  ctx.fillStyle = isGreedy ? EPISODE : EPISODE_EDGE;
+  strokeCased(ctx, palette, line);
   ctx.fill();
-  ctx.strokeStyle = isGreedy ? palette.floor : palette.bead;
-  ctx.lineWidth = isGreedy ? 1.25 : 2;
-  ctx.stroke();
 }
 
 /** The episodes of a frame after a number of steps. */
