@@ -1,6 +1,13 @@
 // The data of the figure: a window of the history, thinned to what a screen can show. Pure.
 
-import { type Column, COLUMNS, columnsOf, type History, type Samples } from '../../lab/history';
+import {
+  type Column,
+  COLUMNS,
+  columnsOf,
+  CONTROLLER_NAMES,
+  type History,
+  type Samples,
+} from '../../lab/history';
 import type { EventMessage } from '../../net/protocol.gen';
 
 export const WINDOWS = [
@@ -152,7 +159,10 @@ export function csvOf(history: History, { from_s, to_s, struck }: Sample): strin
       disturbed += 1;
       next += 1;
     }
-    const cells = COLUMNS.map((name) => String(Number((all[name][index] ?? 0).toFixed(6))));
+    const cells = COLUMNS.map((name) => {
+      const value = all[name][index] ?? 0;
+      return name === 'controller' ? CONTROLLER_NAMES[value] : String(Number(value.toFixed(6)));
+    });
     lines.push([...cells, disturbed].join(','));
   });
   return `${lines.join('\n')}\n`;
