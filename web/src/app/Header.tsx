@@ -4,6 +4,7 @@ import { For, Show, type JSX } from 'solid-js';
 import { ConnectionStatus } from './ConnectionStatus';
 import { KeyboardHelp } from './KeyboardHelp';
 import { PlaceNotice } from '../lab/PlaceNotice';
+import { deliveredGoals } from '../lab/deliveries';
 import { isLedFromOutside } from '../lab/outside';
 import type { Lab, Notices, Session } from '../lab/slices';
 import { VIEWS, type View } from '../lab/address';
@@ -133,7 +134,11 @@ export function Header(props: HeaderProps): JSX.Element {
         </Show>
       </div>
       <dl class="counters">
-        <Counter label="delivered" testid="deliveries" value={lab.state()?.deliveries} />
+        <Counter
+          label="delivered"
+          testid="deliveries"
+          value={deliveredGoals(lab.state(), lab.marks())}
+        />
         <Counter label="switches" testid="switches" value={lab.state()?.switches} />
         <Counter label="disturbed" testid="disturbances" value={lab.state()?.disturbances} />
         <Counter label="steps" testid="steps" value={lab.state()?.steps} />
