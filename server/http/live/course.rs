@@ -27,7 +27,7 @@ impl Reach {
         }
         let is_cut = cuts > self.cuts;
         let from = if is_cut { self.next_tick.min(cut_tick + 1) } else { self.next_tick };
-        let has_gap = now.tick > from + now.course.step_ticks() && now.course.newest_tick() >= Some(from);
+        let has_gap = now.tick >= from + now.course.step_ticks() && now.course.newest_tick() >= Some(from);
         (is_cut || has_gap).then_some(from)
     }
 

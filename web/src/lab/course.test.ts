@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { BINARY_COURSE } from '../net/protocol.gen';
 import { createRecorder, pointsOf } from './course';
-import { CONTROLLER_NAMES, History } from './history';
+import { CARRIERS } from '../ui/controllers';
+import { History } from './history';
 import type { Input } from './model';
 import { sceneOf, stateAt } from './testing';
 
@@ -16,7 +17,7 @@ function bytesOf(step: number, first: number, count: number): Uint8Array<ArrayBu
       view.setFloat32(8 + 4 * (column * count + index), value, true);
     });
     view.setUint8(8 + 16 * count + index, index === 0 ? 1 : 2);
-    view.setUint8(8 + 17 * count + index, 1);
+    view.setUint8(8 + 17 * count + index, 4);
   }
   return bytes;
 }
@@ -48,7 +49,7 @@ describe('the course', () => {
     expect(first).toMatchObject({ tick: 10, sim_time_s: 0.08, tool_x_m: 0.5, tool_y_m: 0.25 });
     expect(first).toMatchObject({ bead_x_m: 10, bead_y_m: 0.75, mode: 1, error_x_m: -9.5 });
     expect(second).toMatchObject({ tick: 15, bead_x_m: 15, mode: 2 });
-    expect(CONTROLLER_NAMES[second?.controller ?? 0]).toBe('errt');
+    expect(CARRIERS[second?.controller ?? 0]).toBe('you');
   });
 
   it('is whole for a page that comes late', () => {

@@ -1,6 +1,7 @@
 // The course of the trial: from the states, and from the server's own record what this page has not seen.
 
-import type { StateMessage } from '../net/protocol.gen';
+import { CONTROLLER_LABELS, type ControllerName, type StateMessage } from '../net/protocol.gen';
+import { CARRIERS } from '../ui/controllers';
 import type { History, Sample } from './history';
 import type { Input } from './model';
 
@@ -8,6 +9,8 @@ import type { Input } from './model';
 const HEAD_BYTES = 8;
 /** Four positions as numbers of 32 bits, then two bytes. */
 const POINT_BYTES = 18;
+/** A point has the number of its controller in this order. */
+const CONTROLLERS = Object.keys(CONTROLLER_LABELS) as readonly ControllerName[];
 
 /** The points of a part; the route of the WebSocket describes its format. */
 export function pointsOf(bytes: Uint8Array<ArrayBuffer>, tick_s: number): Sample[] {
@@ -37,8 +40,8 @@ export function pointsOf(bytes: Uint8Array<ArrayBuffer>, tick_s: number): Sample
       error_x_m,
       error_y_m,
       error_m: Math.hypot(error_x_m, error_y_m),
-      controller: byte(1),
       mode: byte(0),
+      controller: CARRIERS.indexOf(CONTROLLERS[byte(1)] ?? 'program'),
     };
   });
 }

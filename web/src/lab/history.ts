@@ -1,9 +1,7 @@
 // The course of the trial, in columns, for the plots and the trails.
 
-import { CONTROLLER_LABELS, type ControllerName, type StateMessage } from '../net/protocol.gen';
-
-/** A sample has the number of its controller in this list. */
-export const CONTROLLER_NAMES = Object.keys(CONTROLLER_LABELS) as readonly ControllerName[];
+import type { StateMessage } from '../net/protocol.gen';
+import { CARRIERS } from '../ui/controllers';
 
 /** Columns of a sample in this order, in metres and seconds. */
 export const COLUMNS = [
@@ -16,8 +14,9 @@ export const COLUMNS = [
   'error_x_m',
   'error_y_m',
   'error_m',
-  'controller',
   'mode',
+  /** Its index in `CARRIERS`. */
+  'controller',
 ] as const;
 export type Column = (typeof COLUMNS)[number];
 export type Sample = Readonly<Record<Column, number>>;
@@ -70,8 +69,8 @@ export class History {
       error_x_m: state.tracking_error_x_m,
       error_y_m: state.tracking_error_y_m,
       error_m: state.tracking_error_m,
-      controller: CONTROLLER_NAMES.indexOf(state.controller),
       mode: state.mode,
+      controller: CARRIERS.indexOf(state.controller),
     });
   }
 

@@ -60,6 +60,9 @@ export const LOOKS = {
 
 export type Controller = keyof typeof LOOKS;
 
+/** All of them: a number stands for one in columns of samples. */
+export const CARRIERS = Object.keys(LOOKS) as readonly Controller[];
+
 /** The dash of a controller's line of a width. */
 export const dashOf = (controller: Controller, width_px: number): number[] =>
   LOOKS[controller].dash.map((part) => (part * width_px) / DASHED_PX);

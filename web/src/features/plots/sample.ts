@@ -1,14 +1,8 @@
 // The data of the figure: a window of the history, thinned to what a screen can show. Pure.
 
-import {
-  type Column,
-  COLUMNS,
-  columnsOf,
-  CONTROLLER_NAMES,
-  type History,
-  type Samples,
-} from '../../lab/history';
+import { type Column, COLUMNS, columnsOf, type History, type Samples } from '../../lab/history';
 import type { EventMessage } from '../../net/protocol.gen';
+import { CARRIERS } from '../../ui/controllers';
 
 export const WINDOWS = [
   ['10', '10 s'],
@@ -161,7 +155,7 @@ export function csvOf(history: History, { from_s, to_s, struck }: Sample): strin
     }
     const cells = COLUMNS.map((name) => {
       const value = all[name][index] ?? 0;
-      return name === 'controller' ? CONTROLLER_NAMES[value] : String(Number(value.toFixed(6)));
+      return name === 'controller' ? CARRIERS[value] : String(Number(value.toFixed(6)));
     });
     lines.push([...cells, disturbed].join(','));
   });
