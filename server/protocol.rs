@@ -3,7 +3,7 @@
 //!
 //! Text frames are JSON objects tagged by `type`. Binary frames carry pictures: one byte
 //! [`BINARY_CAMERA_JPEG`] or [`BINARY_OBSERVATION`], three bytes of zero, the tick as u32
-//! little-endian, then the payload.
+//! little-endian, then the payload. [`BINARY_COURSE`] has the same head.
 
 mod answer;
 mod catalog;
@@ -73,3 +73,5 @@ pub const MAX_MESSAGE_BYTES: usize = 2 << 20;
 pub const BINARY_CAMERA_JPEG: u8 = 1;
 /// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.
 pub const BINARY_OBSERVATION: u8 = 2;
+/// Binary frame: a part of the trial's course.
+pub const BINARY_COURSE: u8 = 3;

@@ -12,6 +12,7 @@ mod commands;
 mod comparisons;
 mod connected_programs;
 mod contract;
+mod courses;
 mod crashes;
 mod determinism;
 mod disturbances;

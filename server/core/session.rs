@@ -11,6 +11,7 @@ mod branch_point;
 #[cfg(test)]
 mod command_tests;
 mod contest;
+mod course;
 mod error;
 mod facts;
 mod history;
@@ -41,6 +42,7 @@ use crate::trial::{
 pub use asking::PROGRAM_ANSWER_WITHIN;
 use asking::ProgramQueries;
 pub use branch_point::{BranchPoint, Progress};
+pub use course::{Course, CoursePoint};
 pub use error::CommandError;
 pub use facts::VoidFact;
 use history::History;
@@ -178,6 +180,8 @@ pub struct View {
     pub missed_deadlines: u64,
     /// First and last tick that a rewind reaches.
     pub rewind_ticks: (u64, u64),
+    /// Where tool and bead were; after a rewind up to its last tick, too.
+    pub course: Course,
     /// The static part.
     pub scenery: Arc<Scenery>,
     /// The last observation with its tick.
@@ -302,6 +306,7 @@ impl<E: ImageSource> Session<E> {
             lateness: if self.running { self.pace.lateness() } else { Duration::ZERO },
             missed_deadlines: self.pace.missed(),
             rewind_ticks: self.history.range(),
+            course: self.history.timeline().course().clone(),
             scenery: self.scenery.clone(),
             sight: self.sight.clone(),
             journal: self.history.journal().clone(),

@@ -2,6 +2,7 @@
 
 mod catalog;
 mod comparison;
+mod course;
 mod hand;
 mod hub;
 mod seat;
@@ -25,6 +26,7 @@ use utoipa::IntoParams;
 
 use self::catalog::Feed;
 pub use self::catalog::{Lists, keep as keep_lists};
+use self::course::Reach;
 use self::hand::Hand;
 use self::hub::json;
 pub use self::hub::{CameraWatch, Encoded, Hub};
@@ -62,6 +64,12 @@ pub struct LiveQuery {
 /// Text frames are `ClientMessage` from the browser and `ServerMessage` from the server, JSON both. Binary frames carry
 /// pictures: one byte 1 (the camera's, a JPEG file) or 2 (the observation, 2 × 84 × 84 bytes), three bytes of zero, the
 /// tick as u32 little-endian, then the payload.
+///
+/// The same head with 3 is a part of the course, where tool and bead were. It replaces all that the browser has from that
+/// tick on. All numbers are little-endian: u32 ticks between two points, u32 tick of the first point; then for each of the
+/// points f32 x of the tool, then all y, x and y of the bead, in metres; then one byte each for the active sub-controller (1
+/// or 2), and one for sub-controller 2, counted in the order of `ControllerName`. It comes first whole, and then before a
+/// state, if ticks were left out since the state before.
 #[utoipa::path(get, path = "/api/sessions/{id}/live", tag = "sessions", params(SessionPath, LiveQuery),
     responses((status = 101, description = "The connection is a WebSocket from here on."), Malformed, NotFound, NotUpgraded, Unavailable))]
 pub async fn live(
@@ -118,6 +126,7 @@ struct Outbox {
     past_version: u64,
     sight_version: u64,
     seen_version: u64,
+    course: Reach,
 }
 
 impl Connection {
@@ -146,6 +155,7 @@ impl Connection {
             past_version: 0,
             sight_version: 0,
             seen_version: 0,
+            course: Reach::default(),
         };
         let mut goes_on = true;
         let hand = self.hand.clone();
@@ -218,6 +228,9 @@ impl Connection {
                 out.past_version = newest.past_version;
                 self.send_events(true).await?;
             }
+        }
+        if let Some(part) = newest.course.next_for(&mut out.course) {
+            self.socket.feed(Message::Binary(part)).await?;
         }
         self.socket.feed(Message::Text(newest.state)).await?;
         if out.sight_version != newest.sight_version {

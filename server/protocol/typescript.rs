@@ -53,6 +53,7 @@ fn constants() -> String {
         constant("PROTOCOL_VERSION", PROTOCOL_VERSION, "Version of the messages."),
         constant("BINARY_CAMERA_JPEG", BINARY_CAMERA_JPEG, "First byte of a binary message with a camera image."),
         constant("BINARY_OBSERVATION", BINARY_OBSERVATION, "First byte of a binary message with an observation."),
+        constant("BINARY_COURSE", BINARY_COURSE, "First byte of a binary message with a part of the course."),
         constant("CONTROL_PERIOD_S", CONTROL_PERIOD_S, "Simulated time between control steps."),
         constant("SPEED_MAX", SPEED_MAX, "Maximum speed of playback."),
         constant("GOAL_RADIUS_M", GOAL_RADIUS_M, "A goal is reached within this distance."),

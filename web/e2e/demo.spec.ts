@@ -25,7 +25,7 @@ const CAPTIONS: readonly (readonly [string, (state: StateMessage) => boolean])[]
   ['Watch: the bead will be pulled away.', ({ leg_steps }) => leg_steps >= 52],
   [
     'The bead is pulled away. The arm flies straight to it.',
-    ({ disturbances }) => disturbances === 1,
+    ({ disturbances, mode }) => disturbances === 1 && mode === 1,
   ],
   [
     'Fetched. It carries on.',
@@ -38,6 +38,7 @@ const WATCHING = 'Another screen runs this demonstration';
 const WAITING = /^One moment/;
 
 const captionOf = (page: Page) => page.locator('.demo-caption');
+const badgeOf = (page: Page) => page.locator('.demo-badge');
 
 declare global {
   interface Window {
@@ -52,6 +53,16 @@ function keepCaptions() {
     const text = document.querySelector('.demo-caption')?.textContent.trim() ?? '';
     if (text !== '' && text !== window.ferryCaptions.at(-1)) window.ferryCaptions.push(text);
   }).observe(document, { subtree: true, childList: true, characterData: true });
+}
+
+/** Runs in the page before its scripts. */
+function hideWebGl() {
+  const { prototype } = HTMLCanvasElement;
+  // eslint-disable-next-line @typescript-eslint/unbound-method
+  const { getContext } = prototype;
+  prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) {
+    return kind === 'webgl2' ? null : (getContext.call(this, kind, ...rest) as unknown);
+  } as typeof getContext;
 }
 
 /** The clock by which the programme waits. */
@@ -108,6 +119,43 @@ test('runs its programme, gives way to a visitor, and returns', async ({ page })
 });
 
 test(
+  'shows a late screen, and one that is loaded again, the same badge, sentence and trail',
+  LONG,
+  async ({ page, browser }) => {
+    await page.setViewportSize({ width: 480, height: 320 });
+    const first = await Lab.watch(page, `${server.url}/demo`);
+    await begun(first);
+    await first.send({ type: 'pause' });
+    await until('paused', () => !first.state.running);
+    const context = await browser.newContext();
+    try {
+      await context.addInitScript(hideWebGl);
+      const start = await first.bead();
+      await first.stepUntil('the transport', () => first.state.leg_steps > 20);
+      const late = await Lab.watch(await context.newPage(), `${server.url}/demo`);
+      await until('the same state', () => late.isComplete && late.state.tick === first.state.tick);
+      const shown = async () => {
+        await late.canvas.waitFor();
+        await expect(badgeOf(late.page)).toHaveText('RL, a neural network');
+        await expect(captionOf(late.page)).toHaveText('RL carries the bead to its goal.');
+        await late.drawn();
+        return late.pixelsAround(start, await late.bead());
+      };
+      const withTrail = await shown();
+      await late.page.reload();
+      expect(await shown()).toBe(withTrail);
+
+      await first.stepUntil('the loss', () => first.state.mode === 1 && first.state.disturbances);
+      await expect(badgeOf(late.page)).toHaveText('Fetching');
+      await expect(captionOf(late.page)).toHaveText('The arm flies to the bead.');
+      await late.page.goto('about:blank');
+    } finally {
+      await context.close();
+    }
+  },
+);
+
+test(
   'shows the ghosts of a challenge, and a visitor who touches the screen plays it',
   LONG,
   async ({ page }) => {
@@ -142,14 +190,7 @@ test(
   'goes to the plan view without WebGL 2, shows a refusal, and forgets a zoom',
   LONG,
   async ({ page }) => {
-    await page.addInitScript(() => {
-      const { prototype } = HTMLCanvasElement;
-      // eslint-disable-next-line @typescript-eslint/unbound-method
-      const { getContext } = prototype;
-      prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) {
-        return kind === 'webgl2' ? null : (getContext.call(this, kind, ...rest) as unknown);
-      } as typeof getContext;
-    });
+    await page.addInitScript(hideWebGl);
     const lab = await Lab.watch(page, `${server.url}/demo`);
     await begun(lab);
     await lab.canvas.waitFor();

@@ -5,6 +5,8 @@ import { type Lab, expect, test } from './fixtures';
 import { must, until } from './support/wait';
 
 const PARTS = ['a', 'b', 'c', 'd', 'e', 'f'];
+/** Between two points of the server's course. */
+const COURSE_TICKS = 5;
 
 const pictureOf = (lab: Lab, part: string) => lab.page.locator(`[data-part=${part}] [role=img]`);
 
@@ -66,4 +68,37 @@ test("plots the paper's figure, and saves it", async ({ lab }) => {
   const before = await height();
   await lab.button('Larger').click();
   await expect.poll(height, { message: 'a larger panel' }).toBeGreaterThan(1.5 * before);
+});
+
+test('has the course from the start without gaps, also after a reload and a step back', async ({
+  lab,
+}) => {
+  const { page } = lab;
+  const ticks = async () => {
+    await lab.tab('Plots').click();
+    const [, ...rows] = await csvRows(lab);
+    return rows.map((row) => Number(row.split(',')[0]));
+  };
+  const faults = async (end: number) => {
+    const known = [0, ...(await ticks())];
+    const gaps = known.flatMap((tick, index) => {
+      const next = known[index + 1] ?? tick;
+      return next - tick > COURSE_TICKS ? [`${tick} to ${next}`] : [];
+    });
+    return known.at(-1) === end ? gaps : [...gaps, `it ends at ${known.at(-1)}`];
+  };
+  await lab.reset();
+  await lab.setGoal(lab.freePoints(await lab.bead(), 0.25, 0.4)[0]);
+  // The page gets few of these states.
+  await lab.step(500);
+  const end = lab.state.tick;
+  expect(await faults(end)).toEqual([]);
+  await page.reload();
+  await lab.live();
+  expect(await faults(end)).toEqual([]);
+  await lab.send({ type: 'rewind', tick: 250 });
+  await until('an earlier tick', () => lab.state.tick === 250);
+  await page.reload();
+  await lab.live();
+  expect(await faults(end), 'up to the newest tick').toEqual([]);
 });

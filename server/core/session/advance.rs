@@ -67,7 +67,7 @@ impl<E: ImageSource> Session<E> {
         if self.sink.wants_beginning() {
             self.sink.begin(&self.trial, Beginning::Resumed);
         }
-        self.history.note(record.tick - 1, &record.inputs);
+        self.history.note(&record);
         self.referee(&record);
         for event in record.events.drain(..) {
             self.report(event);

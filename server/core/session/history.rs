@@ -6,7 +6,7 @@ use super::JOURNAL;
 use super::kept_runs::{KeptRun, KeptRunSummary, KeptRuns};
 use super::opened_case::OpenedCase;
 use super::timeline::Timeline;
-use crate::trial::{Event, Input, Trial, TrialState};
+use crate::trial::{Event, Input, TickRecord, Trial, TrialState};
 
 /// A state, and the inputs that wait for its next tick.
 struct End {
@@ -49,9 +49,10 @@ impl History {
         self.timeline.keep(state);
     }
 
-    /// Notes inputs that were applied before a tick.
-    pub fn note(&mut self, tick: u64, inputs: &[Input]) {
-        self.timeline.note(tick, inputs);
+    /// Notes a tick and the inputs that were applied before it.
+    pub fn note(&mut self, record: &TickRecord) {
+        self.timeline.note(record.tick - 1, &record.inputs);
+        self.timeline.follow(&record.moment);
     }
 
     /// A rewind follows.

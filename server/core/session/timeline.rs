@@ -1,9 +1,11 @@
-//! Moments for rewinding: a snapshot before each control step of the last ten minutes, and the inputs since then.
+//! Moments for rewinding: a snapshot before each control step of the last ten minutes, and the inputs since then. The course
+//! reaches back to the start.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::trial::{Input, TrialState};
+use super::course::Course;
+use crate::trial::{Input, Moment, TrialState};
 
 /// Four snapshots per second for ten minutes, a few kilobytes each.
 const MOST: usize = 2400;
@@ -18,12 +20,13 @@ pub struct Timeline {
     inputs: VecDeque<(u64, Input)>,
     /// Whether inputs before the first moment are not known.
     is_cut: bool,
+    course: Course,
 }
 
 impl Timeline {
     /// Only this state is known of the past.
     pub fn from_state(state: TrialState) -> Self {
-        Self { moments: VecDeque::from([Arc::new(state)]), inputs: VecDeque::new(), is_cut: true }
+        Self { moments: VecDeque::from([Arc::new(state)]), is_cut: true, ..Self::default() }
     }
 
     /// Keeps a state and drops later ones.
@@ -36,6 +39,15 @@ impl Timeline {
         if self.moments.len() > MOST {
             self.drop_oldest();
         }
+    }
+
+    /// Adds a moment to the course.
+    pub fn follow(&mut self, moment: &Moment) {
+        self.course.follow(moment);
+    }
+
+    pub fn course(&self) -> &Course {
+        &self.course
     }
 
     /// Notes inputs that were applied before a tick.
@@ -81,6 +93,7 @@ impl Timeline {
         while self.inputs.back().is_some_and(|&(at, _)| at > tick) {
             self.inputs.pop_back();
         }
+        self.course.forget_after(tick);
     }
 
     /// The last state at or before a tick.

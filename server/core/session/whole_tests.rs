@@ -7,6 +7,7 @@ use super::{
     Command, CommandError, Ended, Message, Opening, PROGRAM_ANSWER_WITHIN, Recalled, Saved, Session, Surroundings,
     View, Void,
 };
+use crate::control::switching::Mode;
 use crate::control::transport::program::Answer;
 use crate::geometry::Point2;
 use crate::image::EmptyFloor;
@@ -246,4 +247,48 @@ fn the_pace_is_that_of_the_passed_time() {
     let view = bench.send(Command::Pause).unwrap();
     assert_eq!((view.running, view.moment.tick), (false, ticks));
     assert_eq!(bench.session.wait(bench.now), None);
+}
+
+#[test]
+fn the_course_covers_the_trial_and_follows_rewinds_and_kept_runs() {
+    let mut bench = open_floor(ControllerName::Attractor);
+    bench.input(goal(0.1));
+    bench.send(Command::Run).unwrap();
+    let carried = bench.run_until("some seconds", |view| view.moment.tick == 503).course;
+    let (first_tick, points) = carried.points_from(0);
+    assert_eq!((first_tick, carried.step_ticks(), points.len()), (5, 5, 100));
+    assert_eq!((carried.newest_tick(), carried.points_from(498).0, carried.cuts()), (Some(500), 500, (0, 0)));
+    assert!(points.iter().any(|point| point.mode == Mode::Transport && point.controller == ControllerName::Attractor));
+    assert!(points.last().unwrap().tool_m[0] > points[0].tool_m[0] + 0.02);
+
+    // A rewind leaves it; going on from there cuts it.
+    let rewound = bench.send(Command::Rewind(250)).unwrap();
+    assert_eq!(rewound.course.newest_tick(), Some(500));
+    bench.send(Command::Run).unwrap();
+    let again = bench.run_until("the same tick", |view| view.moment.tick == 260);
+    assert_eq!((again.course.newest_tick(), again.course.cuts()), (Some(260), (1, rewound.moment.tick)));
+    assert_eq!(again.course.points_from(0).1, &points[..52], "the same trial again");
+
+    let returned = bench.send(Command::Return(1)).unwrap();
+    assert_eq!(returned.course.points_from(0).1, points);
+    let reset = bench.send(Command::Reset(None)).unwrap();
+    assert_eq!(reset.course.newest_tick(), None);
+}
+
+#[test]
+fn a_long_course_gets_coarser_and_keeps_its_start() {
+    let mut bench = open_floor(ControllerName::Attractor);
+    bench.send(Command::Run).unwrap();
+    let mut moment = bench.run_until("the first tick", |view| view.moment.tick == 1).moment;
+    let mut course = super::Course::default();
+    for tick in 1..=100_000 {
+        moment.tick = tick;
+        course.follow(&moment);
+    }
+    let (first_tick, points) = course.points_from(0);
+    let (step, last) = (course.step_ticks(), course.newest_tick().unwrap());
+    assert!(points.len() <= 4096 && points.len() > 2000, "{}", points.len());
+    assert!(first_tick <= step && last + step > 100_000 && last == first_tick + (points.len() as u64 - 1) * step);
+    course.forget_after(50_000);
+    assert_eq!(course.newest_tick(), Some(50_000 / step * step));
 }

@@ -12,6 +12,7 @@ use tokio::sync::{Semaphore, watch};
 use tokio::time::Instant;
 
 use super::comparison;
+use super::course::{self, Part};
 use super::seats::Seats;
 use crate::protocol::{
     BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
@@ -49,6 +50,8 @@ pub struct Encoded {
     pub observation: Bytes,
     /// Incremented when overlay, camera or observation change.
     pub sight_version: u64,
+    /// The part of the course that this state adds to the state before.
+    pub course: Part,
 }
 
 impl Encoded {
@@ -316,8 +319,10 @@ impl Encoder {
             camera_tick: 0,
             observation: Bytes::new(),
             sight_version: 0,
+            course: Part::default(),
         });
         next.view = view.number;
+        next.course = course::Part::after(&next.course, view);
         next.state = json(&ServerMessage::State(Box::new(StateMessage::from(view))));
         let scene_version = Some(view.scenery.version);
         if self.scene_version != scene_version {
@@ -355,7 +360,7 @@ pub fn json(message: &impl Serialize) -> Utf8Bytes {
     serde_json::to_string(message).expect("messages are plain data").into()
 }
 
-fn binary(kind: u8, tick: u64, payload: &[u8]) -> Bytes {
+pub fn binary(kind: u8, tick: u64, payload: &[u8]) -> Bytes {
     let mut bytes = vec![kind, 0, 0, 0];
     bytes.extend((tick as u32).to_le_bytes());
     bytes.extend(payload);

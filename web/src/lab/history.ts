@@ -1,4 +1,4 @@
-// The states of the trial, in columns, for the plots and the trails.
+// The course of the trial, in columns, for the plots and the trails.
 
 import type { StateMessage } from '../net/protocol.gen';
 import { CARRIERS } from '../ui/controllers';
@@ -19,6 +19,7 @@ export const COLUMNS = [
   'controller',
 ] as const;
 export type Column = (typeof COLUMNS)[number];
+export type Sample = Readonly<Record<Column, number>>;
 /** Samples in columns of equal length. */
 export type Samples = Readonly<Record<Column, Float64Array>>;
 
@@ -36,7 +37,7 @@ const RECENT = 0.25;
 /** A full history is thinned out down to this share. */
 const THINNED = 0.875;
 
-/** The states of a trial from its start, in columns. The longer the trial, the coarser the old samples. */
+/** A trial from its start, in columns. The longer the trial, the coarser the old samples. */
 export class History {
   private readonly columns: Samples;
   private end = 0;
@@ -56,16 +57,9 @@ export class History {
     return this.end === 0 ? 0 : this.at('sim_time_s', this.end - 1);
   }
 
-  /**
-   * Adds the newest state. A state of the same tick replaces the stored one, because the hand can move the bead while
-   * paused. An older state follows a rewind and is not stored.
-   */
+  /** Adds the newest state. */
   push(state: StateMessage): void {
-    const newest = this.length > 0 ? this.at('tick', this.length - 1) : -1;
-    if (state.tick < newest) return;
-    if (state.tick === newest) this.end -= 1;
-    if (this.end === this.capacity) this.thin();
-    const sample: Record<Column, number> = {
+    this.add({
       tick: state.tick,
       sim_time_s: state.sim_time_s,
       tool_x_m: state.tool_m[0],
@@ -77,7 +71,18 @@ export class History {
       error_m: state.tracking_error_m,
       mode: state.mode,
       controller: CARRIERS.indexOf(state.controller),
-    };
+    });
+  }
+
+  /**
+   * Adds a sample. One of the newest tick replaces the stored one, because the hand can move the bead while paused. An
+   * older one follows a rewind and is not stored.
+   */
+  add(sample: Sample): void {
+    const newest = this.length > 0 ? this.at('tick', this.length - 1) : -1;
+    if (sample.tick < newest) return;
+    if (sample.tick === newest) this.end -= 1;
+    if (this.end === this.capacity) this.thin();
     for (const name of COLUMNS) this.columns[name][this.end] = sample[name];
     this.end += 1;
   }

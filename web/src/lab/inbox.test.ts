@@ -9,6 +9,11 @@ const state = (tick: number): Input => ({
   message: { type: 'state', ...stateAt(tick) },
 });
 
+const passed = (tick: number): unknown => ({
+  type: 'passed',
+  state: { type: 'state', ...stateAt(tick) },
+});
+
 const scene: Input = { type: 'message', message: { type: 'scene', ...sceneOf('posts') } };
 
 function filled(...inputs: Input[]): Inbox {
@@ -18,9 +23,9 @@ function filled(...inputs: Input[]): Inbox {
 }
 
 describe('the inputs before a frame', () => {
-  it('keep two states, one for each of the next frames', () => {
+  it('keep two states, one for each of the next frames, and tell of those before', () => {
     const inbox = filled(state(1), scene, state(2), state(3));
-    expect(inbox.take()).toEqual([scene, state(2)]);
+    expect(inbox.take()).toEqual([passed(1), scene, state(2)]);
     expect(inbox.isEmpty).toBe(false);
     expect(inbox.take()).toEqual([state(3)]);
     expect(inbox.isEmpty).toBe(true);
@@ -37,7 +42,7 @@ describe('the inputs before a frame', () => {
     for (let tick = 2; tick < 40; tick += 2) {
       inbox.add(state(tick));
       inbox.add(state(tick + 1));
-      expect(inbox.take()).toEqual([state(tick)]);
+      expect(inbox.take().at(-1)).toEqual(state(tick));
     }
   });
 

@@ -37,18 +37,25 @@ export function frameScheduler(work: () => void): () => void {
 const kindOf = (input: Input): string | undefined =>
   input.type === 'message' ? input.message.type : undefined;
 
+const passedOver = (input: Input): Input[] =>
+  input.type === 'message' && input.message.type === 'state'
+    ? [{ type: 'passed', state: input.message }]
+    : [];
+
 /** Inputs that wait for a frame. */
 export class Inbox {
   private queue: Input[] = [];
 
-  /** Drops what `input` supersedes: an older overlay or obstacle map, and the oldest of too many states. */
+  /** Drops what `input` supersedes: an older overlay or obstacle map. The oldest of too many states is passed over. */
   add(input: Input): void {
     const kind = kindOf(input);
     const most =
       kind === 'state' ? STATES_MOST : kind === 'overlay' || kind === 'seen' ? 1 : Infinity;
     const same = this.queue.filter((item) => kindOf(item) === kind);
     const [oldest] = same;
-    if (oldest && same.length >= most) this.queue.splice(this.queue.indexOf(oldest), 1);
+    if (oldest && same.length >= most) {
+      this.queue.splice(this.queue.indexOf(oldest), 1, ...passedOver(oldest));
+    }
     this.queue.push(input);
   }
 

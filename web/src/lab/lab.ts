@@ -5,6 +5,7 @@ import { openPage } from '../net/access';
 import { connect, liveAddress, type Picture } from '../net/connection';
 import {
   BINARY_CAMERA_JPEG,
+  BINARY_COURSE,
   BINARY_OBSERVATION,
   type ClientMessage,
   type EventMessage,
@@ -16,6 +17,7 @@ import { type Answer, Commands } from './commands';
 import { createCatalog } from './catalog';
 import { createComparison } from './comparison';
 import { createContest } from './contest';
+import { createRecorder } from './course';
 import { createEdits } from './edits';
 import { createGoal } from './goal';
 import { History } from './history';
@@ -41,25 +43,15 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
   const inbox = new Inbox();
   const pictures = new Map<number, Picture>();
 
-  const remember = (before: Model, after: Model): void => {
-    if (before.scene && before.scene.trial !== after.scene?.trial) {
-      history.clear();
-      setInspected(undefined);
-    }
-    if (!after.state || after.state === before.state) return;
-    if (before.state && after.state.newest_tick < before.state.newest_tick) {
-      // Down to the moment itself, which a reset may have changed.
-      history.cutAfter(after.state.newest_tick - 1);
-    }
-    history.push(after.state);
-  };
+  const record = createRecorder(history);
 
   const flush = (): void => {
     const before = model();
     const inputs = inbox.take();
     const after = inputs.reduce(reduce, before);
-    remember(before, after);
+    inputs.forEach(record);
     batch(() => {
+      if (before.scene && before.scene.trial !== after.scene?.trial) setInspected(undefined);
       setModel(after);
       setCamera((before) => pictures.get(BINARY_CAMERA_JPEG) ?? before);
       setObservation((before) => pictures.get(BINARY_OBSERVATION) ?? before);
@@ -119,6 +111,10 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
         }
       },
       picture: (picture) => {
+        if (picture.kind === BINARY_COURSE) {
+          take({ type: 'course', part: picture });
+          return;
+        }
         pictures.set(picture.kind, picture);
         schedule();
       },

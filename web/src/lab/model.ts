@@ -12,6 +12,7 @@ import {
   type ServerMessage,
   type StateMessage,
 } from '../net/protocol.gen';
+import type { Picture } from '../net/connection';
 import { eventWords } from '../words/events';
 import { refusalWords } from '../words/refusals';
 import type { AnswerMessage } from './commands';
@@ -78,6 +79,10 @@ export type ModelMessage = Exclude<
 export type Input =
   | { readonly type: 'connection'; readonly connection: ConnectionState }
   | { readonly type: 'message'; readonly message: ModelMessage }
+  /** A state that is not shown, because newer ones have come. */
+  | { readonly type: 'passed'; readonly state: StateMessage }
+  /** A part of the course. */
+  | { readonly type: 'course'; readonly part: Picture }
   | { readonly type: 'sent'; readonly place: Place }
   /** The place that the command was sent from. */
   | { readonly type: 'answer'; readonly place: Place | undefined; readonly answer: AnswerMessage }
@@ -231,6 +236,9 @@ export function reduce(model: Model, input: Input): Model {
       return withConnection(model, input.connection);
     case 'message':
       return withMessage(model, input.message);
+    case 'passed':
+    case 'course':
+      return model;
     // A new attempt: drop the notice of the last one.
     case 'sent':
       return withoutNotice(model, input.place);

@@ -30,6 +30,9 @@ export const BINARY_CAMERA_JPEG = 1;
 /** First byte of a binary message with an observation. */
 export const BINARY_OBSERVATION = 2;
 
+/** First byte of a binary message with a part of the course. */
+export const BINARY_COURSE = 3;
+
 /** Simulated time between control steps. */
 export const CONTROL_PERIOD_S = 0.25;
 

@@ -1,33 +1,38 @@
 // The demonstration: runs the programme, shows its captions, and gives way to a visitor.
 
-import { Show, createEffect, createSignal, on, onCleanup, type JSX } from 'solid-js';
+import { ArrowRight, Magnet } from 'lucide';
+import { Show, createEffect, createMemo, createSignal, on, onCleanup, type JSX } from 'solid-js';
 import { knownBy } from '../../lab/known';
 import { loadLink } from '../../lab/loadTrial';
 import { PlaceNotice } from '../../lab/PlaceNotice';
-import type { Answer } from '../../lab/commands';
 import { isOver } from '../../lab/contest';
 import type { Contested, Notices, Session, Trial } from '../../lab/slices';
 import { openPage } from '../../net/access';
-import type { ControllerName } from '../../net/protocol.gen';
 import {
-  CARRIERS,
   PROGRAMME,
   SILENCE_MS,
   challengeOf,
   cued,
   homeOf,
-  invitation,
   isOver as isPartOver,
   isVisitorKey,
-  playedCaption,
   startOf,
   turned,
-  visitorCaption,
-  watchedCaption,
 } from './programme';
+import {
+  type Badge,
+  badgeOf,
+  invitation,
+  plainSentence,
+  playedSentence,
+  programmeSentence,
+  visitorSentence,
+} from './said';
+import { pathOf } from '../../net/base';
+import { Glyph } from '../../ui/Glyph';
+import { Icon } from '../../ui/Icon';
 import { listen } from '../../ui/listen';
 import './demo.css';
-import { pathOf } from '../../net/base';
 
 const TICK_MS = 250;
 /** Interval of attempts to load the page again when it cannot go on. */
@@ -37,6 +42,14 @@ const WAITING = 'One moment, please.';
 
 /** Not changed by a correction of the computer's clock. */
 const nowMs = (): number => performance.now();
+
+function Mark(props: { of: Badge['of'] }): JSX.Element {
+  return (
+    <Show when={props.of !== 'fetch' && props.of} fallback={<Icon of={Magnet} />}>
+      {(controller) => <Glyph of={controller()} />}
+    </Show>
+  );
+}
 
 export function Demo(props: {
   lab: Session & Trial & Notices & Contested;
@@ -49,8 +62,11 @@ export function Demo(props: {
   const [place, setPlace] = createSignal(startOf(0, nowMs()));
   /** When a visitor last touched the screen; undefined while the programme runs. */
   const [touched_ms, setTouched] = createSignal<number>();
-  /** The trial of the present part; undefined until it is requested. */
-  let own: Promise<Answer | undefined> | number | undefined;
+  /**
+   * The trial that the present part replaces; undefined until its own is requested. A part that was refused is left
+   * after its time.
+   */
+  const [before, setBefore] = createSignal<number>();
   let hasAsked = false;
   let reload_ms: number | undefined;
 
@@ -62,30 +78,30 @@ export function Demo(props: {
   createEffect(() => {
     if (!isLive()) hasAsked = false;
     if (!lab.canOperate()) {
-      own = undefined;
+      setBefore(undefined);
       setTouched(undefined);
     }
   });
 
   const run = (): void => void lab.send('workspace', { type: 'run' });
-  const play = (): Promise<Answer> => lab.contest.play(challengeOf(new Date()));
+  const play = (): void => void lab.contest.play(challengeOf(new Date()));
   const isContest = (): boolean => PROGRAMME[place().part]?.link === undefined;
 
-  const setUp = async (): Promise<void> => {
+  const isShown = (): boolean => (lab.scene()?.trial ?? -Infinity) > (before() ?? Infinity);
+
+  const setUp = (): void => {
     const { link, speed } = PROGRAMME[place().part] ?? {};
-    const asked = link === undefined ? play() : loadLink(lab, 'workspace', link);
-    own = asked;
+    setBefore(lab.scene()?.trial);
+    if (link === undefined) play();
+    else void loadLink(lab, 'workspace', link);
     if (speed !== undefined) void lab.send('workspace', { type: 'set_speed', factor: speed });
     run();
-    const answer = await asked;
-    // A part that was refused is left after its time.
-    if (own === asked && answer?.kind === 'done') own = answer.trial;
   };
   const begin = (part: number): void => {
     setPlace(startOf(part, nowMs()));
     setTouched(undefined);
     props.onBegin();
-    void setUp();
+    setUp();
   };
 
   const reload = async (): Promise<void> => {
@@ -119,18 +135,18 @@ export function Demo(props: {
       if (now - touched > SILENCE_MS) begin(place().part + 1);
       return;
     }
-    setPlace(turned(place(), now));
-    if (own === undefined && knownBy(lab)) begin(place().part);
+    const state = lab.state();
+    if (state) setPlace(turned(place(), state, now));
+    if (before() === undefined && knownBy(lab)) begin(place().part);
     else if (isPartOver(place(), now)) begin(place().part + 1);
   };
 
   createEffect(
     on(lab.state, (state) => {
-      if (!state || touched_ms() !== undefined || lab.scene()?.trial !== own) return;
+      if (!state || touched_ms() !== undefined || !isShown()) return;
       const next = cued(place(), state);
-      if (!next) return;
-      setPlace(next.place);
-      for (const command of next.cue.commands ?? []) void lab.send('workspace', command);
+      setPlace(turned(next?.place ?? place(), state, nowMs()));
+      for (const command of next?.cue.commands ?? []) void lab.send('workspace', command);
     }),
   );
 
@@ -140,7 +156,7 @@ export function Demo(props: {
     setTouched(nowMs());
     // A visitor begins with the clock; the ghosts have run alone.
     const isNew = isContest() && (isFirst || isOver(lab.contest.attempt()));
-    if (isNew) void play();
+    if (isNew) play();
     if (isNew || !lab.state()?.running) run();
   };
   const early = { capture: true, passive: true };
@@ -165,19 +181,23 @@ export function Demo(props: {
   const timer = setInterval(tick, TICK_MS);
   onCleanup(() => clearInterval(timer));
 
-  const carrier = (name: ControllerName): string =>
-    name === 'you' && touched_ms() === undefined ? 'Ghosts' : CARRIERS[name];
+  const isVisited = (): boolean => touched_ms() !== undefined;
   const isWatching = (): boolean =>
     !lab.canOperate() && isLive() && lab.hello()?.operator_present === true;
-  const caption = (): string => {
+  const badge = createMemo((): Badge | undefined => {
+    const state = lab.state();
+    return state && sentence() !== WAITING ? badgeOf(state, isVisited()) : undefined;
+  });
+  const sentence = (): string => {
     const [state, attempt, ghosts] = [lab.state(), lab.contest.attempt(), lab.contest.ghosts()];
     if (isDone() || lab.connection().kind === 'lost') return WAITING;
-    if (!lab.canOperate()) return isWatching() && state ? watchedCaption(state) : '';
-    const isVisited = touched_ms() !== undefined;
+    if (!state || before() === undefined) return isWatching() && state ? plainSentence(state) : '';
     if (isContest() && attempt) {
-      return isVisited ? playedCaption(attempt, ghosts) : invitation(ghosts);
+      return isVisited() ? playedSentence(attempt, ghosts) : invitation(ghosts);
     }
-    return isVisited && state ? visitorCaption(state) : place().caption;
+    if (isVisited()) return visitorSentence(state);
+    // Until the part has begun, the last one is shown.
+    return isShown() ? programmeSentence(place(), state) : plainSentence(state);
   };
   return (
     <main class="demo" data-part={place().part}>
@@ -185,22 +205,26 @@ export function Demo(props: {
       <div class="demo-stage" inert={!lab.canOperate()}>
         {props.children}
       </div>
-      <Show when={lab.state()}>
-        {(state) => (
-          <p class="demo-mode" data-mode={state().mode}>
-            {state().mode === 1 ? 'Fetch' : carrier(state().controller)}
-          </p>
-        )}
-      </Show>
       <PlaceNotice lab={lab} place="workspace" />
-      <p class="demo-caption" role="status">
-        {caption()}
-      </p>
+      <div class="demo-said">
+        <Show when={badge()}>
+          {(shown) => (
+            <p class="demo-badge" data-of={shown().of}>
+              <Mark of={shown().of} />
+              {shown().text}
+            </p>
+          )}
+        </Show>
+        <p class="demo-caption" role="status">
+          {sentence()}
+        </p>
+      </div>
       <p class="demo-safety">
         <Show when={isWatching()}>{WATCHING} · </Show>Simulation, not safety-rated
       </p>
-      <a class="demo-leave" href={home}>
+      <a class="demo-leave button" href={home}>
         Leave
+        <Icon of={ArrowRight} />
       </a>
     </main>
   );

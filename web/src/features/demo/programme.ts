@@ -1,14 +1,6 @@
 // The programme of the demonstration: experiments with captions, one after the other. Pure.
 
-import type {
-  AttemptStanding,
-  ClientMessage,
-  ControllerName,
-  Ghosts,
-  StateMessage,
-} from '../../net/protocol.gen';
-import { seconds } from '../../ui/format';
-import { ghostName } from '../../lab/challenges';
+import type { ClientMessage, StateMessage } from '../../net/protocol.gen';
 import { MAIN, sessionOf } from '../../net/session';
 import { addressOf } from '../../net/base';
 
@@ -17,6 +9,8 @@ export interface Cue {
   /** Holds in no state before its turn, so that a cue after a missed one can follow at once. */
   readonly when: (state: StateMessage) => boolean;
   readonly caption: string;
+  /** Whether the caption is true. One that is true no more gives way at once. */
+  readonly holds: (state: StateMessage) => boolean;
   readonly commands?: readonly ClientMessage[];
 }
 
@@ -34,7 +28,13 @@ const carriesOn =
   (steps: number) =>
   ({ phase, disturbances, leg_steps }: StateMessage): boolean =>
     disturbances > 0 && phase.code === 'transporting' && leg_steps < steps;
-const isDelivered = ({ deliveries }: StateMessage): boolean => deliveries > 0;
+const isCarried = ({ mode }: StateMessage): boolean => mode === 2;
+const isFetched = ({ mode }: StateMessage): boolean => mode === 1;
+const DELIVERED: Cue = {
+  when: ({ deliveries }) => deliveries > 0,
+  caption: 'Delivered.',
+  holds: ({ mode, phase }) => mode === 2 && phase.code === 'delivered',
+};
 /** Not at the end of the transport: a bead that was delivered is not pulled away. */
 const after =
   (steps: number) =>
@@ -53,22 +53,26 @@ const WARNING_STEPS = 8;
  */
 function disturbed(carries: string, speed: number, steps: number): readonly Cue[] {
   return [
-    { when: after(0.3 * steps), caption: carries },
+    { when: after(0.3 * steps), caption: carries, holds: isCarried },
     {
       when: after(steps - WARNING_STEPS),
       caption: 'Watch: the bead will be pulled away.',
+      holds: isCarried,
       commands: [atSpeed(PULL_SPEED)],
     },
     {
-      when: ({ disturbances }) => disturbances > 0,
+      // The loss is noticed later.
+      when: (state) => state.disturbances > 0 && isFetched(state),
       caption: 'The bead is pulled away. The arm flies straight to it.',
+      holds: isFetched,
     },
     {
       when: carriesOn(steps),
       caption: 'Fetched. It carries on.',
+      holds: (state) => isCarried(state) && !DELIVERED.holds(state),
       commands: [atSpeed(speed)],
     },
-    { when: isDelivered, caption: 'Delivered.' },
+    DELIVERED,
   ];
 }
 
@@ -109,14 +113,22 @@ export const PROGRAMME: readonly Part[] = [
     link: `${COLON}&goal=-0.19,-0.48&controller=rl`,
     speed: 1,
     cues: [
-      { when: after(16), caption: 'Touch a free place to set another goal.' },
-      { when: isDelivered, caption: 'Delivered.' },
+      {
+        when: after(16),
+        caption: 'Touch a free place to set another goal.',
+        holds: () => true,
+      },
+      DELIVERED,
     ],
   },
   {
     title: 'A challenge: steer the magnet yourself.',
     cues: [
-      { when: ({ sim_time_s }) => sim_time_s > GHOSTS_S, caption: 'Touch the screen to play.' },
+      {
+        when: ({ sim_time_s }) => sim_time_s > GHOSTS_S,
+        caption: 'Touch the screen to play.',
+        holds: () => true,
+      },
     ],
   },
 ];
@@ -134,9 +146,10 @@ export interface Place {
   readonly part: number;
   /** Number of cues that have happened or were missed. */
   readonly cues: number;
-  readonly caption: string;
-  /** Captions of cues that have happened, and that wait for the present one to be read. */
-  readonly waiting: readonly string[];
+  /** Whose caption is shown; undefined for the title. */
+  readonly shown: Cue | undefined;
+  /** The newest cue that has happened, and that waits for the present caption to be read. */
+  readonly waiting: Cue | undefined;
   /** When the part and the present caption began. */
   readonly began_ms: number;
   readonly shown_ms: number;
@@ -144,8 +157,8 @@ export interface Place {
 
 export function startOf(part: number, now_ms: number): Place {
   const index = part % PROGRAMME.length;
-  const caption = PROGRAMME[index]?.title ?? '';
-  return { part: index, cues: 0, caption, waiting: [], began_ms: now_ms, shown_ms: now_ms };
+  const times = { began_ms: now_ms, shown_ms: now_ms };
+  return { part: index, cues: 0, shown: undefined, waiting: undefined, ...times };
 }
 
 /** The first cue from the next one on that fits the state, and the place after it. */
@@ -154,80 +167,23 @@ export function cued(place: Place, state: StateMessage): { cue: Cue; place: Plac
   const index = cues.findIndex(({ when }, at) => at >= place.cues && when(state));
   const cue = cues[index];
   if (!cue) return undefined;
-  return { cue, place: { ...place, cues: index + 1, waiting: [...place.waiting, cue.caption] } };
+  return { cue, place: { ...place, cues: index + 1, waiting: cue } };
 }
 
-/** Shows the newest waiting caption when the present one has had its time: a caption is about what is seen now. */
-export function turned(place: Place, now_ms: number): Place {
-  const caption = place.waiting.at(-1);
-  if (caption === undefined || now_ms - place.shown_ms < READ_MS) return place;
-  return { ...place, caption, waiting: [], shown_ms: now_ms };
-}
-
-/** Who carries the bead, for an audience. */
-export const CARRIERS: Readonly<Record<ControllerName, string>> = {
-  rl: 'RL, a neural network',
-  errt: 'ERRT, a planner',
-  attractor: 'Attractor dynamics',
-  replanner: 'The shortest path',
-  you: 'A visitor',
-  program: 'A program',
-  robot: 'A robot client',
-};
-
-/** What a screen shows that only watches: another one runs the programme. */
-export function watchedCaption({ mode, phase, goal_m, controller }: StateMessage): string {
-  if (phase.code === 'delivered') return 'Delivered.';
-  if (mode === 1) return 'The arm flies to the bead.';
-  return goal_m ? `${CARRIERS[controller]}, carries the bead to its goal.` : 'No goal is set.';
-}
-
-/** What a visitor in control reads. */
-export function visitorCaption({ hand_m, mode, phase }: StateMessage): string {
-  if (hand_m) return 'Pull the bead far away, then let go.';
-  if (mode === 1) return 'The bead is lost. The arm flies straight to it.';
-  if (phase.code === 'delivered') return 'Delivered. Touch a place to set another goal.';
-  return 'You are in control: drag the bead, touch a place to set a goal.';
+/** Shows the waiting caption when the present one has had its time, or is true no more. */
+export function turned(place: Place, state: StateMessage, now_ms: number): Place {
+  const { shown, waiting } = place;
+  if (!waiting) return place;
+  if ((shown?.holds(state) ?? true) && now_ms - place.shown_ms < READ_MS) return place;
+  return { ...place, shown: waiting, waiting: undefined, shown_ms: now_ms };
 }
 
 /** The challenge of the programme: the easy one of this day, in UTC as on the server. */
 export const challengeOf = (now: Date): string => `easy-${now.toISOString().slice(0, 10)}`;
 
-/** Who is to be beaten: the best person, otherwise the fastest controller. */
-function rival(ghosts: Ghosts | undefined): { name: string; total_s: number } | undefined {
-  const all = (ghosts?.ghosts ?? []).flatMap((ghost) => {
-    const { player, total_s } = ghost;
-    return total_s === null ? [] : [{ isPerson: player !== null, name: ghostName(ghost), total_s }];
-  });
-  all.sort((a, b) => Number(b.isPerson) - Number(a.isPerson) || a.total_s - b.total_s);
-  return all[0];
-}
-
-/** What is shown while the ghosts run and the magnet waits for a visitor. */
-export function invitation(ghosts: Ghosts | undefined): string {
-  const best = rival(ghosts);
-  const word = best ? `${best.name} needs ${seconds(best.total_s)}. ` : '';
-  return `${word}Touch the screen and be faster.`;
-}
-
-/** What a visitor reads who plays the challenge. */
-export function playedCaption(attempt: AttemptStanding, ghosts: Ghosts | undefined): string {
-  const again = 'Touch the screen to try again.';
-  if (attempt.is_time_up) return `Time is up. ${again}`;
-  if (!attempt.is_delivered) {
-    return `Roll the bead into the green circle: ${seconds(attempt.total_s)}`;
-  }
-  const best = rival(ghosts);
-  const own = `Delivered: ${seconds(attempt.total_s)}.`;
-  if (!best) return `${own} ${again}`;
-  return attempt.total_s < best.total_s
-    ? `${own} You are faster than ${best.name}!`
-    : `${own} ${best.name} needs ${seconds(best.total_s)}. ${again}`;
-}
-
 /** Whether the part has come to its end, or to none. */
 export function isOver(place: Place, now_ms: number): boolean {
-  const isDone = place.cues === PROGRAMME[place.part]?.cues.length && place.waiting.length === 0;
+  const isDone = place.cues === PROGRAMME[place.part]?.cues.length && !place.waiting;
   return (isDone && now_ms - place.shown_ms > REST_MS) || now_ms - place.began_ms > PART_MS;
 }
 

@@ -90,8 +90,8 @@ describe('a sample', () => {
       .trim()
       .split('\n');
     expect(lines).toHaveLength(4);
-    expect(lines[0]).toMatch(/^tick,sim_time_s,tool_x_m.*,mode,disturbed$/);
-    expect(lines[2]).toBe('1,0.008,1,0,-1,0,2,0,2,1,1');
+    expect(lines[0]).toMatch(/^tick,sim_time_s,tool_x_m.*,mode,controller,disturbed$/);
+    expect(lines[2]).toBe('1,0.008,1,0,-1,0,2,0,2,1,attractor,1');
     expect(lines[3]?.endsWith(',0')).toBe(true);
   });
 });

@@ -2,6 +2,7 @@
 
 import { type Column, COLUMNS, columnsOf, type History, type Samples } from '../../lab/history';
 import type { EventMessage } from '../../net/protocol.gen';
+import { CARRIERS } from '../../ui/controllers';
 
 export const WINDOWS = [
   ['10', '10 s'],
@@ -16,9 +17,6 @@ const MIN_WINDOW_S = 10;
 const INTERVALS = 300;
 /** Columns with peaks. The tool is too slow for peaks. */
 const PEAKS: readonly Column[] = ['bead_x_m', 'bead_y_m', 'error_m'];
-
-/** Columns of a table. */
-const WRITTEN = COLUMNS.filter((name) => name !== 'controller');
 
 export interface Struck {
   readonly time_s: number;
@@ -147,7 +145,7 @@ export function nearestIndex(times: Float64Array, time_s: number): number | unde
 /** The window as CSV with every sample, in metres and seconds. `disturbed` counts disturbances since the previous line. */
 export function csvOf(history: History, { from_s, to_s, struck }: Sample): string {
   const all = history.window(from_s, to_s);
-  const lines = [[...WRITTEN, 'disturbed'].join(',')];
+  const lines = [[...COLUMNS, 'disturbed'].join(',')];
   let next = 0;
   all.sim_time_s.forEach((time_s, index) => {
     let disturbed = 0;
@@ -155,7 +153,10 @@ export function csvOf(history: History, { from_s, to_s, struck }: Sample): strin
       disturbed += 1;
       next += 1;
     }
-    const cells = WRITTEN.map((name) => String(Number((all[name][index] ?? 0).toFixed(6))));
+    const cells = COLUMNS.map((name) => {
+      const value = all[name][index] ?? 0;
+      return name === 'controller' ? CARRIERS[value] : String(Number(value.toFixed(6)));
+    });
     lines.push([...cells, disturbed].join(','));
   });
   return `${lines.join('\n')}\n`;

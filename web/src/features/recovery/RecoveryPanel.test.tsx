@@ -1,3 +1,4 @@
+import { createSignal, Show } from 'solid-js';
 import { expect, it } from 'vitest';
 import { page, userEvent } from 'vitest/browser';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
@@ -89,6 +90,43 @@ it('shows a recovery map of another map only when it is chosen, and says so', as
   await expect.element(shown).toHaveTextContent(/^place on colon from/);
   server.scene({ map: 'posts' });
   await expect.element(shown).not.toBeInTheDocument();
+});
+
+it('forgets what was chosen when the map changes behind a closed tab', async () => {
+  const cell: RecoveryCell = {
+    ...{ cell: 0, controller: 'rl', delivered: 2, late: 0, lost: 0, repeats: 2 },
+    ...{ x_m: 0.02, y_m: -0.35, size_m: 0.02, direction_rad: null, strength: null },
+    ...{ at_s: null, delivered_wilson95: [0, 1], time_s_median: null, why: null },
+  };
+  const there = reportOf({ cells: [cell] });
+  const here = reportOf({ id: 'recovery-2', map: 'posts', cells: [cell] });
+  const { lab, server } = fakeLab({
+    'GET /api/recoveries/recovery-1': () => there,
+    'GET /api/recoveries/recovery-2': () => here,
+    'GET /api/recoveries/recovery-1/cells/0': () => ({ trials: [] }),
+  });
+  server.lists({ recoveries: [there, here] });
+  server.scene({ map: 'colon' });
+  const [isOpen, setOpen] = createSignal(true);
+  show(() => (
+    <Show when={isOpen()}>
+      <RecoveryPanel lab={lab} tools={document.createElement('div')} />
+    </Show>
+  ));
+  await page.getByLabelText('Recovery map', { exact: true }).selectOptions('recovery-1');
+  const figure = page.getByRole('application', { name: /^RL: cells/ });
+  await expect.element(figure).toBeVisible();
+  (figure.element() as unknown as SVGElement).focus();
+  await userEvent.keyboard('{ArrowRight}');
+  await expect.element(page.getByTestId('recovery-cell')).toBeVisible();
+  setOpen(false);
+  server.scene({ map: 'posts' });
+  await expect.poll(() => lab.scene()?.map).toBe('posts');
+  setOpen(true);
+  await expect
+    .element(page.getByTestId('recovery-progress'))
+    .toHaveTextContent(/^place on posts from/);
+  await expect.element(page.getByTestId('recovery-cell')).not.toBeInTheDocument();
 });
 
 it('shows each controller or the difference of two, and goes from cell to cell by keys', async () => {

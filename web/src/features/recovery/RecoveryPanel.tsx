@@ -142,6 +142,7 @@ function Earlier(props: {
   all: readonly RecoverySummary[];
   shown: string | undefined;
   isHere: (one: RecoverySummary) => boolean;
+  onChoose: (id: string) => void;
 }): JSX.Element {
   const options = (): (readonly [string, string])[] => [
     ...(props.shown === undefined ? [['', 'choose'] as const] : []),
@@ -156,7 +157,7 @@ function Earlier(props: {
         label="Recovery map"
         value={props.shown ?? ''}
         options={options()}
-        onChoose={store.showRecovery}
+        onChoose={props.onChoose}
       />
     </Show>
   );
@@ -177,6 +178,7 @@ export default function RecoveryPanel(
         all={lab.catalog.recoveries() ?? []}
         shown={shown()?.id}
         isHere={(one) => one.map === map()}
+        onChoose={(id) => store.setWanted({ id, on: map() })}
       />
       <PlaceNotice lab={lab} place="recovery" />
       <Show

@@ -43,10 +43,10 @@ export function RecoveryStart(props: {
     },
   );
   const start = async (): Promise<void> => {
-    const tick = lab.state()?.tick;
-    if (tick === undefined) return;
+    const [tick, map] = [lab.state()?.tick, lab.scene()?.map];
+    if (tick === undefined || map === undefined) return;
     const { kind, grid, repeats, within_s, seed } = draft();
-    await startRecovery({
+    const query = {
       session: lab.session,
       tick,
       kind,
@@ -56,7 +56,8 @@ export function RecoveryStart(props: {
       seed: numberOf(seed),
       within_s: numberOf(within_s),
       full: false,
-    });
+    };
+    await startRecovery(query, map);
   };
   return (
     <Form

@@ -5,13 +5,14 @@ import type { Catalog } from '../../lab/catalog';
 import { createDetail } from '../../net/detail';
 import type { RecoveryQuery, RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
 import { post, remove } from '../../net/requests';
-import { setReport, setWanted, showRecovery, wanted } from './store';
+import { setWanted, takeReport, wanted } from './store';
 
 export const PATH = '/api/recoveries';
 
 /** Starts a recovery map and shows it. */
-export async function startRecovery(query: RecoveryQuery): Promise<void> {
-  showRecovery((await post<RecoverySummary>(PATH, JSON.stringify(query))).id);
+export async function startRecovery(query: RecoveryQuery, map: string): Promise<void> {
+  const { id } = await post<RecoverySummary>(PATH, JSON.stringify(query));
+  setWanted({ id, on: map });
 }
 
 export const cancelRecovery = (id: string): Promise<void> => remove(`${PATH}/${id}`);
@@ -23,7 +24,9 @@ export function createShown(
 ): Accessor<RecoverySummary | undefined> {
   const shown = createMemo(() => {
     const all = catalog.recoveries() ?? [];
-    return all.find(({ id }) => id === wanted()) ?? all.findLast((one) => one.map === map());
+    const chosen = wanted();
+    const id = chosen?.on === map() ? chosen?.id : undefined;
+    return all.find((one) => one.id === id) ?? all.findLast((one) => one.map === map());
   });
   // What was chosen on another map would be taken for a result on this one.
   createEffect(on(map, () => setWanted(undefined), { defer: true }));
@@ -32,7 +35,7 @@ export function createShown(
   );
   createEffect(() => {
     const now = detail();
-    if (now) setReport(now);
+    if (now) takeReport(now);
   });
   return shown;
 }

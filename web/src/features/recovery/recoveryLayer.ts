@@ -102,6 +102,13 @@ export const RECOVERY_LAYER: MapLayer = {
         },
       ),
     );
+    createEffect(
+      on(
+        () => lab.scene()?.map,
+        () => store.setDropped(undefined),
+        { defer: true },
+      ),
+    );
     const squares = createMemo((): readonly Square[] => {
       const report = store.report();
       if (report?.kind !== 'place' || report.map !== lab.scene()?.map) return [];

@@ -1,6 +1,6 @@
 // The recovery map that the page shows, and how. Outside of the components: the tab and the map's layer show the same.
 
-import { createSignal } from 'solid-js';
+import { batch, createSignal } from 'solid-js';
 import type { Vec2 } from '../../lab/geometry';
 import { RECOVERY_DEFAULTS } from '../../net/forms.gen';
 import type { ControllerName, RecoveryKind, RecoveryReport } from '../../net/protocol.gen';
@@ -30,8 +30,8 @@ export interface Chosen {
   readonly name: string;
 }
 
-/** Id of the recovery map that the user wants; otherwise the newest is shown. */
-export const [wanted, setWanted] = createSignal<string>();
+/** The recovery map that the user has chosen, while the session was on this map; otherwise the newest is shown. */
+export const [wanted, setWanted] = createSignal<{ id: string; on: string | undefined }>();
 
 export const [report, setReport] = createSignal<RecoveryReport>();
 
@@ -43,8 +43,13 @@ export const [chosen, setChosen] = createSignal<Chosen>();
 /** Where the hand has released the bead last. */
 export const [dropped, setDropped] = createSignal<Vec2>();
 
-export function showRecovery(id: string): void {
-  setWanted(id);
-  setChosen(undefined);
-  setPair(undefined);
+/** A cell or a pair that was chosen belongs to its report. */
+export function takeReport(next: RecoveryReport): void {
+  batch(() => {
+    if (next.id !== report()?.id) {
+      setChosen(undefined);
+      setPair(undefined);
+    }
+    setReport(next);
+  });
 }
