@@ -1,6 +1,6 @@
 // The workspace in the plan view or the 3-D view. A click sets the goal; dragging the bead disturbs it.
 
-import { For, Match, Show, Switch, createMemo, createSignal } from 'solid-js';
+import { For, Show, createMemo, createSignal } from 'solid-js';
 import type { JSX } from 'solid-js';
 import { fixed } from '../ui/format';
 import { PlaceNotice } from '../lab/PlaceNotice';
@@ -11,8 +11,7 @@ import { FailureCard } from '../features/failure/FailureCard';
 import { CameraView } from '../features/steer/CameraView';
 import { TipBar } from '../features/tips/TipBar';
 import { createChoice } from '../ui/storage';
-import { PlanView } from '../plan/PlanView';
-import { ScenePanel } from '../scene/ScenePanel';
+import { MapView } from '../scene/MapView';
 import { createLayers } from '../plan/layer';
 import type { ViewPicture } from '../plan/viewPicture';
 import { MAP_LAYERS } from './layers';
@@ -94,20 +93,21 @@ export function WorkspacePanel(props: {
         }}
       />
       <div ref={stage} class="stage">
-        <Switch fallback={<PlanView {...surfaceProps} />}>
-          <Match when={lab.sight() === 'camera'}>
-            <CameraView {...surfaceProps} notices={lab} />
-          </Match>
-          {/* The 3-D view has no fog. */}
-          <Match when={lab.sight() === 'all' && mode() === 'scene'}>
-            <ScenePanel
+        <Show
+          when={lab.sight() === 'camera'}
+          fallback={
+            <MapView
               {...surfaceProps}
+              // The 3-D view has no fog.
+              mode={lab.sight() === 'all' ? mode() : 'plan'}
               onPlan={() => {
                 choose('plan');
               }}
             />
-          </Match>
-        </Switch>
+          }
+        >
+          <CameraView {...surfaceProps} notices={lab} />
+        </Show>
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
         <Show when={!interaction.picker.isPicking() && !lab.steering.isActive()}>
           <TipBar lab={lab} scene={mode() === 'scene'} />

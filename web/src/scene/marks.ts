@@ -3,7 +3,7 @@
 import { CircleGeometry, Group, Mesh, type Object3D } from 'three';
 import type { History } from '../lab/history';
 import { GOAL_RADIUS_M, type SceneMessage, type StateMessage } from '../net/protocol.gen';
-import { ORDER, type PaintName, type Paints, type Stroke } from './paints';
+import { ORDER, type PaintName, type Paints } from './paints';
 import type { LoadedLayer, SceneObject } from './sceneLayer';
 import { Strokes } from './strokes';
 import type { Vec2 } from '../lab/geometry';
@@ -18,7 +18,8 @@ const CROSS_M = 0.006;
 
 /** Four lines around a free middle. */
 function crosshair(paints: Paints): Strokes {
-  const lines = new Strokes(paints, 'accent', 4, { width_px: 2, through: true });
+  const style = { width_px: 2, through: true, isCased: true };
+  const lines = new Strokes(paints, 'accent', 4, style);
   const [near, far] = CURSOR_M;
   for (const side of [-1, 1]) {
     lines.move(side * near, 0, 0).line(side * far, 0, 0);
@@ -40,23 +41,23 @@ export class Marks {
   private readonly steering: Strokes;
 
   constructor(paints: Paints, scene: SceneMessage, layers: readonly LoadedLayer[]) {
-    const strokes = (name: PaintName, capacity: number, look: Omit<Stroke, 'through'>): Strokes =>
-      new Strokes(paints, name, capacity, { ...look, through: true });
+    const strokes = (name: PaintName, capacity: number, width_px: number): Strokes =>
+      new Strokes(paints, name, capacity, { width_px, through: true, isCased: true });
     this.objects = layers.map(({ id, create }) => ({ id, ...create(paints, scene) }));
-    const tracked = strokes('ink', 2, { width_px: 1, opacity: 0.8 });
+    const tracked = strokes('magnet', 2, 1);
     this.tracked = tracked.cross(0, 0, 0, TRACKED_M).done().object;
     this.cursor = crosshair(paints).object;
-    this.steering = strokes('you', 25, { width_px: 2 });
+    this.steering = strokes('m-you', 25, 2);
     const plumb = new Strokes(paints, 'magnet', 1, { width_px: 1.25, opacity: 0.8 });
     this.plumb = plumb.move(0, 0, 0).line(0, 0, 1).done().object;
-    const spot = strokes('magnet', 24, { width_px: 1.5, opacity: 0.9 });
+    const spot = strokes('magnet', 24, 1.5);
     this.spot = spot.circle(0, 0, 0, CROSS_M, 24).done().object;
 
-    const ring = strokes('goal', 66, { width_px: 2.5 });
+    const ring = strokes('m-goal', 66, 2.5);
     ring.circle(0, 0, 0, GOAL_RADIUS_M).cross(0, 0, 0, CROSS_M).done();
     const disc = new Mesh(
       new CircleGeometry(GOAL_RADIUS_M, 48),
-      paints.flat('goal', { opacity: 0.2, through: true }),
+      paints.flat('m-goal', { opacity: 0.16, through: true }),
     );
     this.goal.add(disc, ring.object);
     const air = new Group();

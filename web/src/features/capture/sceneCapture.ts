@@ -10,12 +10,9 @@ const UP_M = 8e-4;
 
 export const sceneCapture: CreateSceneObject = (paints, scene) => {
   const sectors = sectorsOf(scene);
-  const look = { through: true, clipped: true };
-  const edge = new Strokes(paints, 'magnet', 2 * sectors.length, {
-    ...look,
-    width_px: 1.25,
-    opacity: 0.8,
-  });
+  const look = { through: true };
+  const style = { ...look, width_px: 1.5, isCased: true };
+  const edge = new Strokes(paints, 'magnet', 2 * sectors.length, style);
   for (const [from, to] of sectors.flatMap(({ inner, outer }) => [inner, outer])) {
     edge.move(...from, UP_M).line(...to, UP_M);
   }

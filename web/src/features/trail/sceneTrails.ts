@@ -10,7 +10,7 @@ const UP_M = 1.2e-3;
 const POINTS = 2000;
 
 export const sceneTrails: CreateSceneObject = (paints) => {
-  const style = { width_px: 1.75, opacity: 0.6, through: true };
+  const style = { width_px: 2, through: true, isCased: true };
   const strokes = [
     new Strokes(paints, 'magnet', POINTS + 1, style),
     new Strokes(paints, 'bead', POINTS + 1, style),
