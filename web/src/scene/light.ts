@@ -16,9 +16,11 @@ const STRENGTH = {
 /** Direction from the middle of the table to the lamp: over the user's left shoulder. */
 const TOWARD_LAMP = new Vector3(-0.62, -0.62, 1.25);
 const TOWARD_RIM = new Vector3(0.7, 1, 0.5);
-const SHADOW = { size_px: 2048, radius_px: 9, samples: 16 };
-/** Without a graphics card. */
-const SMALL_SHADOW_PX = 1024;
+/** With and without a graphics card. */
+const SHADOW = {
+  card: { size_px: 2048, radius_px: 9, samples: 16 },
+  slow: { size_px: 768, radius_px: 4, samples: 6 },
+};
 /** Half the width of the shadow area around the middle of the table: the arm, or a larger table. */
 const SHADOWED_M = 0.8;
 
@@ -32,9 +34,10 @@ export class Light {
     this.group.add(this.sky, this.lamp, this.lamp.target, this.rim, this.rim.target);
     this.lamp.castShadow = true;
     const { shadow } = this.lamp;
-    shadow.mapSize.setScalar(isSlow ? SMALL_SHADOW_PX : SHADOW.size_px);
-    shadow.radius = SHADOW.radius_px;
-    shadow.blurSamples = SHADOW.samples;
+    const { size_px, radius_px, samples } = SHADOW[isSlow ? 'slow' : 'card'];
+    shadow.mapSize.setScalar(size_px);
+    shadow.radius = radius_px;
+    shadow.blurSamples = samples;
     shadow.camera.near = 0.05;
     shadow.camera.far = 4;
     shadow.bias = -2e-4;

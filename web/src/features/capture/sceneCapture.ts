@@ -10,8 +10,7 @@ const UP_M = 8e-4;
 
 export const sceneCapture: CreateSceneObject = (paints, scene) => {
   const sectors = sectorsOf(scene);
-  const look = { through: true };
-  const style = { ...look, width_px: 1.5, isCased: true };
+  const style = { width_px: 1.5, through: true, isCased: true };
   const edge = new Strokes(paints, 'magnet', 2 * sectors.length, style);
   for (const [from, to] of sectors.flatMap(({ inner, outer }) => [inner, outer])) {
     edge.move(...from, UP_M).line(...to, UP_M);
@@ -19,7 +18,7 @@ export const sceneCapture: CreateSceneObject = (paints, scene) => {
   const corners = sectors.flatMap(({ inner: [a, b], outer: [c, d] }) => [a, c, d, a, d, b]);
   const fill = triangles(corners.map(([x, y]): Point => [x, y, UP_M]));
   const object = new Group().add(
-    new Mesh(fill, paints.flat('magnet', { ...look, opacity: 0.08 })),
+    new Mesh(fill, paints.flat('south', { clipped: true, opacity: 0.14 })),
     edge.done().object,
   );
   return {
