@@ -28,7 +28,7 @@ export const ORDER = { floor: -1, marks: 0, bead: 1, solids: 2, air: 3 } as cons
 const ROUGHNESS = { wall: 0.42, other: 0.38 } as const;
 /** A dark tone of the arm's joints. */
 const SHADOW_TINT = 0.2;
-const SHADOW_OPACITY = 0.34;
+const SHADOW_OPACITY = 0.28;
 /** Share of the own colour that glowing objects emit. */
 const GLOW = 0.3;
 /** Of the casing of a mark, at each side. */
