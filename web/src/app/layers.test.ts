@@ -7,7 +7,7 @@ const ids = MAP_LAYERS.map(({ id }) => id);
 
 it('layers keep the ids that browsers have stored', () => {
   expect(ids.join(' ')).toBe(
-    'singularity value recovery seen flow blocks rectangles sensed obstacles plan ghosts challenge field trail camera capture',
+    'singularity value recovery seen rulers flow blocks rectangles sensed obstacles plan ghosts challenge field trail camera capture',
   );
 });
 

@@ -9,6 +9,7 @@ import { FLOW_LAYER } from '../features/flow/flowLayer';
 import { BLOCKS_LAYER, RECTANGLES_LAYER, SEEN_LAYER } from '../features/observed/observedLayers';
 import { OBSTACLES_LAYER, PLAN_LAYER } from '../features/planner/plannerLayers';
 import { RECOVERY_LAYER } from '../features/recovery/recoveryLayer';
+import { RULERS_LAYER } from '../features/rulers/rulersLayer';
 import { SINGULARITY_LAYER } from '../features/singularity/singularityLayer';
 import { TRAIL_LAYER } from '../features/trail/trailLayer';
 import { VALUE_LAYER } from '../features/values/valueLayer';
@@ -20,6 +21,7 @@ export const MAP_LAYERS: readonly (MapLayer & InScene)[] = [
   VALUE_LAYER,
   RECOVERY_LAYER,
   SEEN_LAYER,
+  RULERS_LAYER,
   FLOW_LAYER,
   BLOCKS_LAYER,
   RECTANGLES_LAYER,

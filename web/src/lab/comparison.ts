@@ -18,13 +18,18 @@ export function lastTick({ tick, ticks_a_sample, branches }: ComparisonMessage):
 }
 
 /** A branch at a tick, or at its end if it ended earlier. Undefined before its first sample. */
+/** Index of the sample of a tick, or of the nearest one. */
+export function sampleAt(comparison: ComparisonMessage, branch: Branch, tick: number): number {
+  const index = Math.round((tick - comparison.tick) / comparison.ticks_a_sample) - 1;
+  return Math.min(Math.max(0, index), branch.samples.length - 1);
+}
+
 export function ghostAt(
   comparison: ComparisonMessage,
   branch: Branch,
   tick: number,
 ): Ghost | undefined {
-  const index = Math.round((tick - comparison.tick) / comparison.ticks_a_sample) - 1;
-  const sample = branch.samples[Math.min(Math.max(0, index), branch.samples.length - 1)];
+  const sample = branch.samples[sampleAt(comparison, branch, tick)];
   return sample && { tool_m: [sample[0], sample[1]], bead_m: [sample[2], sample[3]] };
 }
 

@@ -1,6 +1,7 @@
 // The states of the trial, in columns, for the plots and the trails.
 
 import type { StateMessage } from '../net/protocol.gen';
+import { CARRIERS } from '../ui/controllers';
 
 /** Columns of a sample in this order, in metres and seconds. */
 export const COLUMNS = [
@@ -14,6 +15,8 @@ export const COLUMNS = [
   'error_y_m',
   'error_m',
   'mode',
+  /** Its index in `CARRIERS`. */
+  'controller',
 ] as const;
 export type Column = (typeof COLUMNS)[number];
 /** Samples in columns of equal length. */
@@ -73,6 +76,7 @@ export class History {
       error_y_m: state.tracking_error_y_m,
       error_m: state.tracking_error_m,
       mode: state.mode,
+      controller: CARRIERS.indexOf(state.controller),
     };
     for (const name of COLUMNS) this.columns[name][this.end] = sample[name];
     this.end += 1;

@@ -10,8 +10,9 @@ import {
   type Accessor,
   type JSX,
 } from 'solid-js';
-import { fitView, pxFromWorld, tableViewOf, type View } from './transform';
+import { fitView, pxFromWorld, pxRect, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
+import { cornerPx, framed } from './tray';
 import { fogImage } from './fog';
 import { type Draw, type LiveLayer, type MovingPicture, shownParts, type UnderTool } from './layer';
 import { type Base, createPainter, type Picture } from './paint';
@@ -24,9 +25,6 @@ import { yieldToPage, zooming } from './zooming';
 import './plan.css';
 import type { ByHand, Layers, Pictures, Session, Trial, Walls } from '../lab/slices';
 import { palette } from '../ui/palette';
-
-/** Space for the numbers of the axes, in pixels. */
-const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
 
 export interface SurfaceProps {
   readonly lab: Session & Trial & Layers & Pictures & ByHand & Walls;
@@ -58,11 +56,19 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     const workspace = lab.scene()?.workspace;
     const { width, height } = size();
     if (!workspace || width * height === 0) return undefined;
-    return { width, height, workspace, fit: fitView(workspace, width, height, INSETS) };
+    return { width, height, workspace, fit: fitView(framed(workspace), width, height) };
   });
   const view = createMemo<View | undefined>(() => {
     const now = frame();
     return now && zoomedView(now, zoom());
+  });
+  const trayRect = createMemo((): Record<string, string> | undefined => {
+    const [now, workspace] = [view(), lab.scene()?.workspace];
+    if (!now || !workspace) return undefined;
+    const sides = pxRect(now, framed(workspace)).map((side) => `${String(side)}px`);
+    const [left = '', top = '', width = '', height = ''] = sides;
+    const corner = `${String(cornerPx(workspace, now))}px`;
+    return { left, top, width, height, 'border-radius': corner };
   });
   const map = createMemo(() => lab.scene()?.map);
   createEffect(on([map, () => props.whole?.()], () => setZoom(WHOLE), { defer: true }));
@@ -83,6 +89,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     const map = baseMap();
     return map && { ...map, fog: fog() };
   });
+  const canGrab = (): boolean => lab.canOperate() && !lab.steering.isActive();
   const picture = createMemo<Picture | undefined>(() => {
     const baseNow = base();
     return (
@@ -92,7 +99,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
         state: lab.state(),
         history: lab.history,
         act: act(),
-        grabRadiusPx: reachPx(),
+        grab: canGrab() ? { isNear: reachPx() !== undefined } : undefined,
         cursor: focused() && !lab.steering.isActive() ? cursor() : undefined,
         steer_m: lab.steering.target() ?? lab.state()?.steer_m ?? undefined,
       }
@@ -120,6 +127,9 @@ export function PlanView(props: SurfaceProps): JSX.Element {
 
   return (
     <>
+      <Show when={zoom() === WHOLE && trayRect()}>
+        {(rect) => <div class="tray" style={rect()} aria-hidden="true" />}
+      </Show>
       <ViewCanvas
         lab={lab}
         interaction={interaction}

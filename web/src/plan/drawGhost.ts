@@ -1,58 +1,69 @@
 // Draws a run beside the session's own: the way of its bead, and tool and bead at one time.
 
 import type { Vec2 } from '../lab/geometry';
+import type { Controller } from '../ui/controllers';
+import { drawHead, type Labels, lineOf, strokeCased } from './marks';
 import { circle } from './shapes';
 import { pxFromWorld, type View } from './transform';
 import type { Ctx } from './sheet';
 import type { Palette } from '../ui/palette';
 
-const TOOL_PX = 7;
-const BEAD_PX = 3.5;
-const FONT = '600 11px system-ui, sans-serif';
+const TOOL_PX = 6;
+const HEAD_PX = 9;
+const LINE_PX = 3;
+const AHEAD_ALPHA = 0.5;
 
 export interface DrawnGhost {
-  readonly colour: string;
+  readonly controller: Controller;
   readonly label: string;
-  /** Places of the bead. */
+  /** Places of the bead until now. */
   readonly path_m: readonly Vec2[];
+  /** Its places from then on. */
+  readonly ahead_m?: readonly Vec2[];
   readonly tool_m: Vec2;
   readonly bead_m: Vec2;
 }
 
-/** Text with an outline, so that it is readable on a wall. */
-export function drawLabel(ctx: Ctx, palette: Palette, text: string, [x, y]: Vec2): void {
-  ctx.font = FONT;
-  ctx.textBaseline = 'middle';
-  ctx.lineJoin = 'round';
-  ctx.strokeStyle = palette.floor;
-  ctx.lineWidth = 3;
-  ctx.strokeText(text, x, y);
-  ctx.fillText(text, x, y);
+function trace(ctx: Ctx, view: View, places: readonly Vec2[]): void {
+  ctx.beginPath();
+  for (const place of places) ctx.lineTo(...pxFromWorld(view, place));
 }
 
-export function drawGhost(ctx: Ctx, view: View, palette: Palette, ghost: DrawnGhost): void {
-  ctx.save();
-  ctx.lineJoin = 'round';
-  ctx.strokeStyle = ghost.colour;
-  ctx.fillStyle = ghost.colour;
-  ctx.lineWidth = 1.75;
-  ctx.setLineDash([5, 3]);
-  ctx.beginPath();
-  for (const place of ghost.path_m) ctx.lineTo(...pxFromWorld(view, place));
-  ctx.stroke();
-  ctx.setLineDash([]);
-  const tool = pxFromWorld(view, ghost.tool_m);
-  const bead = pxFromWorld(view, ghost.bead_m);
-  ctx.lineWidth = 1;
-  ctx.beginPath();
-  ctx.moveTo(...tool);
-  ctx.lineTo(...bead);
-  ctx.stroke();
-  ctx.lineWidth = 2;
-  circle(ctx, tool, TOOL_PX);
-  ctx.stroke();
-  circle(ctx, bead, BEAD_PX);
-  ctx.fill();
-  drawLabel(ctx, palette, ghost.label, [tool[0] + TOOL_PX + 4, tool[1]]);
-  ctx.restore();
+/** The labels come last, over the lines of all. */
+export function drawGhosts(
+  ctx: Ctx,
+  view: View,
+  palette: Palette,
+  ghosts: readonly DrawnGhost[],
+  labels: Labels,
+): void {
+  for (const { controller, path_m, ahead_m, tool_m, bead_m } of ghosts) {
+    const line = lineOf(palette, controller, LINE_PX);
+    if (ahead_m) {
+      ctx.save();
+      ctx.globalAlpha = AHEAD_ALPHA;
+      trace(ctx, view, ahead_m);
+      ctx.strokeStyle = line.colour;
+      ctx.lineWidth = 1.5;
+      ctx.stroke();
+      ctx.restore();
+    }
+    trace(ctx, view, path_m);
+    strokeCased(ctx, palette, line);
+    const [tool, bead] = [pxFromWorld(view, tool_m), pxFromWorld(view, bead_m)];
+    ctx.beginPath();
+    ctx.moveTo(...tool);
+    ctx.lineTo(...bead);
+    strokeCased(ctx, palette, { colour: line.colour, width_px: 1 });
+    circle(ctx, tool, TOOL_PX);
+    strokeCased(ctx, palette, { colour: line.colour, width_px: 1.5 });
+  }
+  for (const { controller, bead_m } of ghosts) {
+    const bead = pxFromWorld(view, bead_m);
+    drawHead(ctx, palette, controller, bead);
+    labels.keep(bead, HEAD_PX);
+  }
+  for (const { label, bead_m } of ghosts) {
+    labels.draw(ctx, palette, label, pxFromWorld(view, bead_m), HEAD_PX + 5);
+  }
 }

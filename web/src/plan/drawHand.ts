@@ -1,67 +1,33 @@
-// Draws the hand: the spring from the bead to the pointer, and the keyboard's cursor.
+// Draws the hand: the arrow from the bead to the pointer, and the keyboard's cursor.
 
 import { pxFromWorld, type View } from './transform';
-import { FONT } from './drawMap';
-import { circle, cross } from './shapes';
+import { drawText, LABEL_FONT, strokeCased } from './marks';
+import { cross } from './shapes';
 import { distance, type Vec2 } from '../lab/geometry';
 import type { Ctx } from './sheet';
 import type { Palette } from '../ui/palette';
 
-const COIL_PX = 7;
-const COIL_HALF_WIDTH_PX = 5;
-/** Length of the straight wire at both ends of the coils. */
-const LEAD_PX = 6;
+const DASH = [7, 5];
+const HEAD_PX = 10;
 const LABEL_OFFSET_PX = 16;
-const LABEL_PADDING_PX = 6;
-const LABEL_HEIGHT_PX = 20;
-
-/** Corners of a zigzag spring from `a` to `b`, in pixels. */
-function springPoints(a: Vec2, b: Vec2): [number, number][] {
-  const length = distance(a, b);
-  const coils = Math.floor((length - 2 * LEAD_PX) / COIL_PX);
-  if (coils < 1)
-    return [
-      [a[0], a[1]],
-      [b[0], b[1]],
-    ];
-  const along: Vec2 = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
-  const lead = (length - coils * COIL_PX) / 2;
-  const at = (s: number, side: number): [number, number] => [
-    a[0] + along[0] * s - along[1] * side,
-    a[1] + along[1] * s + along[0] * side,
-  ];
-  const points = [at(0, 0), at(lead, 0)];
-  for (let i = 0; i < coils; i++) {
-    const side = i % 2 === 0 ? COIL_HALF_WIDTH_PX : -COIL_HALF_WIDTH_PX;
-    points.push(at(lead + (i + 0.5) * COIL_PX, side));
-  }
-  points.push(at(length - lead, 0), at(length, 0));
-  return points;
-}
 
 function drawLabel(ctx: Ctx, text: string, at: Vec2, widthPx: number, palette: Palette): void {
-  ctx.font = FONT;
-  const width = ctx.measureText(text).width + 2 * LABEL_PADDING_PX;
+  ctx.font = LABEL_FONT;
+  const right = at[0] + LABEL_OFFSET_PX;
   // To the left of the pointer if there is no space on the right.
-  const left =
-    at[0] + LABEL_OFFSET_PX + width > widthPx
-      ? at[0] - LABEL_OFFSET_PX - width
-      : at[0] + LABEL_OFFSET_PX;
-  const top = Math.max(2, at[1] - LABEL_OFFSET_PX - LABEL_HEIGHT_PX);
-  ctx.beginPath();
-  ctx.roundRect(left, top, width, LABEL_HEIGHT_PX, 4);
-  ctx.fillStyle = palette.surface;
-  ctx.fill();
-  ctx.strokeStyle = palette.you;
-  ctx.lineWidth = 1;
-  ctx.stroke();
-  ctx.fillStyle = palette.ink;
-  ctx.textAlign = 'left';
-  ctx.textBaseline = 'middle';
-  ctx.fillText(text, left + LABEL_PADDING_PX, top + LABEL_HEIGHT_PX / 2 + 0.5);
+  const isLeft = right + ctx.measureText(text).width > widthPx;
+  const x = isLeft ? at[0] - LABEL_OFFSET_PX : right;
+  drawText(
+    ctx,
+    palette,
+    text,
+    [x, Math.max(12, at[1] - LABEL_OFFSET_PX)],
+    isLeft ? 'right' : 'left',
+  );
 }
 
-export function drawSpring(
+/** How the hand pulls the bead. */
+export function drawPull(
   ctx: Ctx,
   view: View,
   palette: Palette,
@@ -71,21 +37,31 @@ export function drawSpring(
 ): void {
   const bead = pxFromWorld(view, bead_m);
   const hand = pxFromWorld(view, hand_m);
-  ctx.beginPath();
-  for (const point of springPoints(bead, hand)) ctx.lineTo(...point);
-  ctx.strokeStyle = palette.you;
-  ctx.lineWidth = 1.75;
-  ctx.lineJoin = 'round';
-  ctx.stroke();
-  circle(ctx, hand, 4);
-  ctx.fillStyle = palette.you;
-  ctx.fill();
+  const length = distance(bead, hand);
+  const colour = palette['m-you'];
+  if (length > HEAD_PX) {
+    const [x, y] = [(hand[0] - bead[0]) / length, (hand[1] - bead[1]) / length];
+    ctx.beginPath();
+    ctx.moveTo(...bead);
+    ctx.lineTo(hand[0] - x * HEAD_PX * 0.6, hand[1] - y * HEAD_PX * 0.6);
+    strokeCased(ctx, palette, { colour, width_px: 3, dash: DASH });
+    const corner = (side: number): Vec2 => [
+      hand[0] - HEAD_PX * (x - side * 0.62 * y),
+      hand[1] - HEAD_PX * (y + side * 0.62 * x),
+    ];
+    ctx.beginPath();
+    ctx.moveTo(...corner(1));
+    ctx.lineTo(...hand);
+    ctx.lineTo(...corner(-1));
+    ctx.closePath();
+    strokeCased(ctx, palette, { colour, width_px: 1.5 });
+    ctx.fillStyle = colour;
+    ctx.fill();
+  }
   drawLabel(ctx, words, hand, widthPx, palette);
 }
 
 export function drawCursor(ctx: Ctx, view: View, palette: Palette, cursor: Vec2): void {
-  ctx.strokeStyle = palette.accent;
-  ctx.lineWidth = 2;
   cross(ctx, pxFromWorld(view, cursor), 14, 4);
-  ctx.stroke();
+  strokeCased(ctx, palette, { colour: palette['m-cursor'], width_px: 2 });
 }

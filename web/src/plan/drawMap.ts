@@ -1,48 +1,53 @@
-// Draws the static parts of the workspace: floor, grid with numbers, walls.
+// Draws the static parts of the workspace below the walls: the floor with its marks, and the numbers beside it.
 
 import { fixed } from '../ui/format';
-import type { Polygon, Rect } from '../net/protocol.gen';
+import type { Rect } from '../net/protocol.gen';
 import { pxFromWorld, pxRect, type View } from './transform';
+import { unitM } from './tray';
 import type { Ctx } from './sheet';
 import type { Palette } from '../ui/palette';
 
-export const FONT = '11px system-ui, sans-serif';
+export const FONT = "500 12px 'Inter Variable', system-ui, sans-serif";
 const LABEL_GAP_PX = 5;
 const TICK_PX = 4;
-/** Line of a wall. */
-export const EDGE_PX = 1;
 const BORDER_PX = 2;
 const MIN_LABEL_SPACING_PX = 56;
+const MIN_MARK_SPACING_PX = 36;
+/** Half a mark of the floor, in units of the tray. */
+const MARK = 2.5;
 
-/** Spacing of the grid: the smallest of 5, 10, 20, 50 cm whose labels do not overlap. */
-export function gridStepM(pxPerM: number): number {
-  return [0.05, 0.1, 0.2].find((step) => step * pxPerM >= MIN_LABEL_SPACING_PX) ?? 0.5;
+/** The smallest of 5, 10, 20, 50 cm that is so many pixels long. */
+export function gridStepM(pxPerM: number, least_px = MIN_LABEL_SPACING_PX): number {
+  return [0.05, 0.1, 0.2].find((step) => step * pxPerM >= least_px) ?? 0.5;
 }
 
-function* multiples(step: number, from: number, to: number): Generator<number> {
+export function* multiples(step: number, from: number, to: number): Generator<number> {
   for (let i = Math.ceil(from / step - 1e-9); i * step <= to + 1e-9; i++) yield i * step;
 }
 
-function trace(path: Path2D, ring: readonly (readonly [number, number])[], view: View): void {
-  ring.forEach((vertex, index) => {
-    const [x, y] = pxFromWorld(view, vertex);
-    if (index === 0) path.moveTo(x, y);
-    else path.lineTo(x, y);
-  });
-  path.closePath();
-}
-
-export function wallPath(walls: readonly Polygon[], view: View): Path2D {
-  const path = new Path2D();
-  for (const wall of walls) {
-    trace(path, wall.exterior, view);
-    for (const hole of wall.holes) trace(path, hole, view);
+/** The floor, with a small mark every 5 cm. */
+export function drawFloor(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
+  ctx.fillStyle = palette.floor;
+  ctx.fillRect(...pxRect(view, rect));
+  const step = gridStepM(view.pxPerM, MIN_MARK_SPACING_PX);
+  const half = MARK * unitM(rect) * view.pxPerM;
+  ctx.beginPath();
+  for (const x_m of multiples(step, rect.x_min_m + step / 2, rect.x_max_m - step / 2)) {
+    for (const y_m of multiples(step, rect.y_min_m + step / 2, rect.y_max_m - step / 2)) {
+      const [x, y] = pxFromWorld(view, [x_m, y_m]);
+      ctx.moveTo(x - half, y);
+      ctx.lineTo(x + half, y);
+      ctx.moveTo(x, y - half);
+      ctx.lineTo(x, y + half);
+    }
   }
-  return path;
+  ctx.strokeStyle = palette['floor-grid'];
+  ctx.lineWidth = 1.2;
+  ctx.stroke();
 }
 
-/** The lines of the grid, and the numbers beside the workspace. */
-export function drawGrid(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
+/** The numbers beside the workspace. */
+export function drawNumbers(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
   const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
   const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   const step = gridStepM(view.pxPerM);
@@ -68,27 +73,6 @@ export function drawGrid(ctx: Ctx, rect: Rect, view: View, palette: Palette): vo
     ctx.fillText(fixed(y_m, step < 0.1 ? 2 : 1), left - TICK_PX - LABEL_GAP_PX, y);
   }
   ctx.stroke();
-}
-
-export function drawFloor(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
-  ctx.fillStyle = palette.floor;
-  ctx.fillRect(...pxRect(view, rect));
-}
-
-/** The walls and the border. */
-export function drawOutlines(
-  ctx: Ctx,
-  rect: Rect,
-  walls: Path2D,
-  view: View,
-  palette: Palette,
-): void {
-  ctx.fillStyle = palette.wall;
-  ctx.fill(walls, 'evenodd');
-  ctx.strokeStyle = palette['wall-rim'];
-  ctx.lineWidth = EDGE_PX;
-  ctx.stroke(walls);
-  drawBorder(ctx, rect, view, palette);
 }
 
 /** The borders are walls too. */

@@ -3,7 +3,7 @@
 import { pxFromWorld, type View } from './transform';
 import { type ValueCells, valueArrows, valuePicture, type ValuePicture } from './values';
 import { arrowPath } from './arrows';
-import { heatRamp, type Range } from './colourRamp';
+import { type Range, rampOf } from './colourRamp';
 import { imageOf } from './pixels';
 import type { Ctx } from './sheet';
 import type { Palette } from '../ui/palette';
@@ -16,7 +16,7 @@ export interface Values {
 
 /** `range` has the values of the first and the last colour. */
 export function createValues(map: ValueCells, palette: Palette, range?: Range): Values | undefined {
-  const picture = valuePicture(map, heatRamp(palette), range);
+  const picture = valuePicture(map, rampOf(palette, 'value'), range);
   return picture && { map, picture, image: imageOf(picture.pixels, picture.columns) };
 }
 
@@ -28,10 +28,14 @@ export function drawColours(ctx: Ctx, view: View, { map, picture, image }: Value
   ctx.drawImage(image, ...at, picture.columns * side, picture.rows * side);
 }
 
-export function drawArrows(ctx: Ctx, view: View, palette: Palette, { map }: Values): void {
-  ctx.strokeStyle = palette.ink;
-  ctx.lineWidth = 1;
-  ctx.globalAlpha = 0.55;
-  ctx.stroke(arrowPath(view, valueArrows(map, view.pxPerM)));
-  ctx.globalAlpha = 1;
+/** White on dark colours, black on light ones. */
+export function drawArrows(ctx: Ctx, view: View, { map, picture }: Values): void {
+  ctx.save();
+  ctx.lineWidth = 1.3;
+  for (const isOnLight of [true, false]) {
+    ctx.strokeStyle = isOnLight ? 'rgb(27 17 8 / 0.72)' : 'rgb(255 255 255 / 0.8)';
+    const isWanted = (value: number): boolean => picture.isLight(value) === isOnLight;
+    ctx.stroke(arrowPath(view, valueArrows(map, view.pxPerM, isWanted)));
+  }
+  ctx.restore();
 }

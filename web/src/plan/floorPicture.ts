@@ -3,7 +3,7 @@
 
 import type { Rect } from '../net/protocol.gen';
 import { fitView, type Insets, type View } from './transform';
-import { drawGrid } from './drawMap';
+import { drawNumbers } from './drawMap';
 import { type BaseMap, paintAbove, paintGround } from './baseMap';
 import type { Palette } from '../ui/palette';
 
@@ -54,7 +54,7 @@ export function numbersPicture(workspace: Rect, palette: Palette): FloorPicture 
   const picture = createPicture(workspace, INSETS);
   const ctx = picture.canvas.getContext('2d');
   ctx?.scale(RATIO, RATIO);
-  if (ctx) drawGrid(ctx, workspace, picture.view, palette);
+  if (ctx) drawNumbers(ctx, workspace, picture.view, palette);
   return picture;
 }
 

@@ -24,7 +24,7 @@ export const WORKSPACE_SHORTCUTS: readonly Shortcut[] = (
 ).map(([keys, does]) => ({ group: 'Workspace', keys, does }));
 
 /** Largest distance from the bead at which a press grabs it. */
-export const GRAB_PX = { mouse: 16, touch: 28 };
+export const GRAB_PX = { mouse: 22, touch: 28 };
 /** A shorter movement is still a click. Larger for a finger, because a fingertip rolls. */
 const SLOP_PX = { mouse: 3, touch: 8 };
 /** Way of the wheel for each unit of `deltaMode`: pixels, lines, pages. */

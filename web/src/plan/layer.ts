@@ -9,12 +9,14 @@ import type { Ctx } from './sheet';
 import type { Palette } from '../ui/palette';
 
 /** Headings of the menu, in its order. */
-export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm'] as const;
+export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm', 'Map'] as const;
 
 export interface BasePicture {
   readonly view: View;
   readonly palette: Palette;
   readonly scene: SceneMessage;
+  /** What no wall at rest covers, to be filled by the rule `evenodd`. */
+  readonly free: Path2D;
 }
 
 export interface MovingPicture extends BasePicture {

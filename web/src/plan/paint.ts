@@ -3,8 +3,16 @@
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import { type BaseMap, type Ground, clipped, paintAbove, paintGround } from './baseMap';
-import { drawCursor, drawSpring } from './drawHand';
-import { drawBead, drawGoal, drawSteering, drawTool, drawTracked } from './drawMoving';
+import { drawCursor, drawPull } from './drawHand';
+import {
+  drawBead,
+  drawGoal,
+  drawGrabRing,
+  drawStart,
+  drawSteering,
+  drawTool,
+  drawTracked,
+} from './drawMoving';
 import { drawFog } from './fog';
 import type { Act } from './gesture';
 import type { Draw, MovingPicture } from './layer';
@@ -26,8 +34,8 @@ export interface Picture {
   readonly state: StateMessage | undefined;
   readonly history: History;
   readonly act: Act;
-  /** Radius of the ring that shows that the bead can be grabbed; undefined if it cannot. */
-  readonly grabRadiusPx: number | undefined;
+  /** Whether the bead can be taken, and whether a press would do so now. */
+  readonly grab: { readonly isNear: boolean } | undefined;
   readonly cursor: Vec2 | undefined;
   /** Where the hand points the tool. */
   readonly steer_m: Vec2 | undefined;
@@ -54,20 +62,31 @@ export function pullOf(act: Act, state: StateMessage, scene: SceneMessage): Pull
   return { hand_m, isLifted, words: [...parts, ...(remark ? [remark] : [])].join(' · ') };
 }
 
+/** Where the bead was at first; undefined if this page has not seen that. */
+function startOf({ scenario }: SceneMessage, history: History): Vec2 | undefined {
+  if (scenario.start_m) return scenario.start_m;
+  if (history.before(0, 'tick') !== 0) return undefined;
+  return [history.before(0, 'bead_x_m'), history.before(0, 'bead_y_m')];
+}
+
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
-  const { view, palette, scene } = picture.base.ground;
+  const { view, palette, scene, free } = picture.base.ground;
+  const { history, grab } = picture;
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
-  const moving = { view, palette, scene, state, history: picture.history };
-  for (const draw of picture.moving) clipped(draw)(ctx, moving);
-  if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
-  if (picture.steer_m) drawSteering(ctx, view, palette, tool, picture.steer_m);
-  drawTool(ctx, view, palette, tool);
   const bead_m = picture.base.fog ? state.bead_tracked_m : state.bead_m;
   const bead: Vec2 = [bead_m[0], bead_m[1]];
-  drawBead(ctx, view, palette, bead, scene.bead_radius_m, picture.grabRadiusPx);
-  drawTracked(ctx, view, palette, state.bead_tracked_m);
+  const moving = { view, palette, scene, free, state, history };
+  for (const draw of picture.moving) clipped(draw)(ctx, moving);
+  const start = startOf(scene, history);
+  if (start) drawStart(ctx, view, palette, start);
+  if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
+  if (picture.steer_m) drawSteering(ctx, view, palette, tool, picture.steer_m);
+  if (grab) drawGrabRing(ctx, view, palette, bead, grab.isNear);
+  drawTool(ctx, view, palette, tool);
   const pull = pullOf(picture.act, state, scene);
-  if (pull) drawSpring(ctx, view, palette, widthPx, bead, pull);
+  if (pull) drawPull(ctx, view, palette, widthPx, bead, pull);
+  drawBead(ctx, view, palette, bead, scene.bead_radius_m);
+  drawTracked(ctx, view, palette, state.bead_tracked_m);
 }
 
 /** It keeps what does not change from one picture to the next. */

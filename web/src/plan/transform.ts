@@ -28,8 +28,15 @@ export function grown(rect: Rect, { left, right, top, bottom }: Insets): Rect {
   };
 }
 
+const NO_INSETS: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
+
 /** Shows all of `world`, centred, as large as possible inside `insets`. */
-export function fitView(world: Rect, widthPx: number, heightPx: number, insets: Insets): View {
+export function fitView(
+  world: Rect,
+  widthPx: number,
+  heightPx: number,
+  insets: Insets = NO_INSETS,
+): View {
   const worldWidth = world.x_max_m - world.x_min_m;
   const worldHeight = world.y_max_m - world.y_min_m;
   const roomX = Math.max(1, widthPx - insets.left - insets.right);

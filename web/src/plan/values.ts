@@ -4,10 +4,12 @@ import { ACTIONS } from '../lab/actions';
 import type { Vec2 } from '../lab/geometry';
 import type { ValueCell, ValueMap } from '../net/protocol.gen';
 import type { Arrow } from './arrows';
-import { colourOf, type Ramp, type Range, rangeOf } from './colourRamp';
+import { colourOf, luminance, type Ramp, type Range, rangeOf } from './colourRamp';
 
 /** Arrow length as a share of the distance between two arrows. */
 const LENGTH = 0.6;
+/** Here black and white have the same contrast. */
+const MIDDLE_LUMINANCE = 0.18;
 /** Smallest distance between arrows, so that they stay readable. */
 const MIN_ARROW_PX = 12;
 
@@ -37,6 +39,8 @@ export interface ValuePicture {
   readonly columns: number;
   readonly rows: number;
   readonly pixels: Uint8ClampedArray<ArrayBuffer>;
+  /** Whether black is seen better than white on the colour of a value. */
+  readonly isLight: (value: number) => boolean;
 }
 
 /** `range` has the values of the first and the last colour. */
@@ -57,17 +61,31 @@ export function valuePicture(
     );
   }
   const half_m = map.spacing_m / 2;
-  return { corner_m: [left_m - half_m, top_m + half_m], columns, rows, pixels };
+  return {
+    corner_m: [left_m - half_m, top_m + half_m],
+    columns,
+    rows,
+    pixels,
+    isLight: (value) => luminance(colourOf(ramp, range, value)) > MIDDLE_LUMINANCE,
+  };
 }
 
-/** Arrows of the best step in each cell, or in every n-th cell along x and y if cells are small. */
-export function valueArrows(map: ValueCells, pxPerM: number): Arrow[] {
+/**
+ * Arrows of the best step in each cell, or in every n-th cell along x and y if cells are small. `isWanted` chooses
+ * cells by their value.
+ */
+export function valueArrows(
+  map: ValueCells,
+  pxPerM: number,
+  isWanted: (value: number) => boolean = () => true,
+): Arrow[] {
   const every = Math.max(1, Math.ceil(MIN_ARROW_PX / (map.spacing_m * pxPerM)));
   const half_m = (LENGTH / 2) * every * map.spacing_m;
   const { column, row } = latticeOf(map);
   return map.cells.flatMap((cell) => {
     const along = ACTIONS[cell.action]?.along;
     if (!along || column(cell) % every > 0 || row(cell) % every > 0) return [];
+    if (!isWanted(cell.value)) return [];
     const [x_m, y_m] = cell.center_m;
     const [dx, dy] = [along[0] * half_m, along[1] * half_m];
     return [{ from_m: [x_m - dx, y_m - dy], to_m: [x_m + dx, y_m + dy], isSeen: true }];

@@ -1,6 +1,8 @@
 // Draws the camera's field of view and the obstacles in it.
 
 import type { OverlayMessage } from '../../net/protocol.gen';
+import { distance, type Vec2 } from '../../lab/geometry';
+import { strokeCased } from '../../plan/marks';
 import type { BasePicture, MovingPicture } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
 import type { Ctx } from '../../plan/sheet';
@@ -8,20 +10,27 @@ import type { Ctx } from '../../plan/sheet';
 /** Exponent of the superellipse that represents an obstacle. */
 const SUPERELLIPSE = 4;
 const OUTLINE_POINTS = 40;
+const BRACKET_PX = 18;
 
+/** Brackets at the corners of what the camera sees. */
 export function drawFootprint(ctx: Ctx, { view, palette, scene, state }: MovingPicture): void {
   const [toolX_m, toolY_m] = state.tool_m;
+  const corners = scene.camera_sees_m.map(([x_m, y_m]) =>
+    pxFromWorld(view, [toolX_m + x_m, toolY_m + y_m]),
+  );
   ctx.beginPath();
-  for (const [x_m, y_m] of scene.camera_sees_m) {
-    ctx.lineTo(...pxFromWorld(view, [toolX_m + x_m, toolY_m + y_m]));
-  }
-  ctx.closePath();
-  ctx.strokeStyle = palette.magnet;
-  ctx.globalAlpha = 0.45;
-  ctx.lineWidth = 1;
-  ctx.lineJoin = 'round';
-  ctx.setLineDash([2, 3]);
-  ctx.stroke();
+  corners.forEach((corner, i) => {
+    const toward = (other: Vec2 | undefined): Vec2 => {
+      if (!other) return corner;
+      const share = Math.min(1, BRACKET_PX / Math.max(1, distance(corner, other)));
+      const along = (k: 0 | 1): number => corner[k] + share * (other[k] - corner[k]);
+      return [along(0), along(1)];
+    };
+    ctx.moveTo(...toward(corners.at(i - 1)));
+    ctx.lineTo(...corner);
+    ctx.lineTo(...toward(corners[(i + 1) % corners.length]));
+  });
+  strokeCased(ctx, palette, { colour: palette.magnet, width_px: 2.2 });
 }
 
 export function drawSensed(
@@ -29,15 +38,13 @@ export function drawSensed(
   { view, palette }: BasePicture,
   overlay: OverlayMessage,
 ): void {
-  ctx.strokeStyle = palette.sensed;
   ctx.fillStyle = palette.sensed;
-  ctx.lineWidth = 1.5;
   const along = (value: number): number => Math.sign(value) * Math.abs(value) ** (2 / SUPERELLIPSE);
   for (const obstacle of overlay.obstacles) {
     const [x, y] = pxFromWorld(view, obstacle.center_m);
     const [halfX_m, halfY_m] = obstacle.half_size_m;
     const [halfX, halfY] = [halfX_m * view.pxPerM, halfY_m * view.pxPerM];
-    ctx.globalAlpha = 0.35;
+    ctx.globalAlpha = 0.3;
     ctx.fillRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
     ctx.globalAlpha = 1;
     ctx.beginPath();
@@ -50,11 +57,12 @@ export function drawSensed(
       );
     }
     ctx.closePath();
-    ctx.stroke();
+    strokeCased(ctx, palette, { colour: palette.sensed, width_px: 1.6 });
   }
   if (overlay.target_m) {
     const [x, y] = pxFromWorld(view, overlay.target_m);
-    ctx.strokeStyle = palette.magnet;
-    ctx.strokeRect(x - 3, y - 3, 6, 6);
+    ctx.beginPath();
+    ctx.rect(x - 4, y - 4, 8, 8);
+    strokeCased(ctx, palette, { colour: palette.magnet, width_px: 2 });
   }
 }

@@ -1,12 +1,13 @@
 // Draws where the magnet captures the bead.
 
 import type { Vec2 } from '../../lab/geometry';
+import { strokeCased } from '../../plan/marks';
 import type { MovingPicture } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
 import { sectorsOf } from './sectors';
 import type { Ctx } from '../../plan/sheet';
 
-export function drawCapture(ctx: Ctx, { view, palette, scene, state }: MovingPicture): void {
+export function drawCapture(ctx: Ctx, { view, palette, scene, free, state }: MovingPicture): void {
   const [toolX_m, toolY_m] = state.tool_m;
   const px = ([x_m, y_m]: Vec2): Vec2 => pxFromWorld(view, [toolX_m + x_m, toolY_m + y_m]);
   const [fill, edge] = [new Path2D(), new Path2D()];
@@ -19,11 +20,11 @@ export function drawCapture(ctx: Ctx, { view, palette, scene, state }: MovingPic
       edge.lineTo(...px(to));
     }
   }
-  ctx.fillStyle = palette.magnet;
-  ctx.globalAlpha = 0.07;
+  ctx.save();
+  ctx.clip(free, 'evenodd');
+  ctx.fillStyle = palette['field-high'];
+  ctx.globalAlpha = 0.16;
   ctx.fill(fill);
-  ctx.globalAlpha = 0.8;
-  ctx.strokeStyle = palette.magnet;
-  ctx.lineWidth = 1.25;
-  ctx.stroke(edge);
+  ctx.restore();
+  strokeCased(ctx, palette, { colour: palette.magnet, width_px: 1.5 }, edge);
 }

@@ -2,11 +2,13 @@
 
 import { createMemo } from 'solid-js';
 import { isOver } from '../../lab/contest';
-import { distance, type Vec2 } from '../../lab/geometry';
+import type { Vec2 } from '../../lab/geometry';
 import type { Contested, Trial } from '../../lab/slices';
 import type { TraceMessage } from '../../net/protocol.gen';
-import { drawGhost, drawLabel } from '../../plan/drawGhost';
+import { drawGhosts } from '../../plan/drawGhost';
 import type { LayerContext, MapLayer } from '../../plan/layer';
+import { Labels, strokeCased } from '../../plan/marks';
+import { circle } from '../../plan/shapes';
 import { pxFromWorld } from '../../plan/transform';
 import { seconds } from '../../ui/format';
 import { ghostName } from '../../lab/challenges';
@@ -23,19 +25,13 @@ function placeAt(places: readonly Vec2[], sample: number): Vec2 | undefined {
   return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
 }
 
-/** Ghosts nearer to each other share a label. */
-const LABEL_PX = 60;
-const LABEL_MOST = 12;
-const short = (name: string): string =>
-  name.length > LABEL_MOST ? `${name.slice(0, LABEL_MOST - 1)}…` : name;
-
 const pathUntil = ({ bead_m }: TraceMessage, sample: number): readonly Vec2[] =>
   bead_m.slice(0, Math.floor(sample) + 1);
 
 export const CHALLENGE_LAYER: MapLayer = {
   id: 'challenge',
   label: 'Challenge: ghosts',
-  swatch: ['rl', 'errt', 'attractor', 'you'],
+  swatch: ['m-rl', 'm-errt', 'm-attractor', 'm-you'],
   group: 'Motion',
   shownAtFirst: true,
   create: ({ lab, isShown }: LayerContext<Contested & Trial>) => {
@@ -52,33 +48,21 @@ export const CHALLENGE_LAYER: MapLayer = {
         const sample = frame() / FRAMES_PER_S / sample_s;
         const loss = isOver(contest.attempt()) ? contest.report()?.loss : undefined;
         return (ctx, { view, palette }) => {
-          const labelled: Vec2[] = [];
-          for (const ghost of ghosts) {
+          const labels = new Labels();
+          const shown = ghosts.flatMap((ghost) => {
             const tool_m = placeAt(ghost.trace.tool_m, sample);
             const bead_m = placeAt(ghost.trace.bead_m, sample);
-            if (!tool_m || !bead_m) continue;
-            const at = pxFromWorld(view, tool_m);
-            // Labels over each other cannot be read: the colours tell the ghosts apart.
-            const isFree = labelled.every((other) => distance(other, at) > LABEL_PX);
-            if (isFree) labelled.push(at);
-            const colour = palette[ghost.controller];
-            const label = isFree ? short(ghostName(ghost)) : '';
+            if (!tool_m || !bead_m) return [];
+            const { controller } = ghost;
             const path_m = pathUntil(ghost.trace, sample);
-            drawGhost(ctx, view, palette, { colour, label, path_m, tool_m, bead_m });
-          }
+            return [{ controller, label: ghostName(ghost), path_m, tool_m, bead_m }];
+          });
+          drawGhosts(ctx, view, palette, shown, labels);
           if (!loss) return;
-          const [x, y] = pxFromWorld(view, loss.place_m);
-          ctx.save();
-          ctx.strokeStyle = palette.danger;
-          ctx.fillStyle = palette.danger;
-          ctx.lineWidth = 2;
-          ctx.beginPath();
-          ctx.arc(x, y, LOSS_PX, 0, 2 * Math.PI);
-          ctx.stroke();
-          // Above the ring, clear of bead and magnet.
-          const label = `lost ${seconds(loss.lost_s)} here`;
-          drawLabel(ctx, palette, label, [x + LOSS_PX + 4, y - LOSS_PX - 6]);
-          ctx.restore();
+          const at = pxFromWorld(view, loss.place_m);
+          circle(ctx, at, LOSS_PX);
+          strokeCased(ctx, palette, { colour: palette['m-danger'], width_px: 2.2 });
+          labels.draw(ctx, palette, `lost ${seconds(loss.lost_s)} here`, at, LOSS_PX + 6);
         };
       },
     };

@@ -1,15 +1,16 @@
 // The branches of a comparison as ghosts on the plan.
 
-import { ghostAt } from '../../lab/comparison';
+import { ghostAt, sampleAt } from '../../lab/comparison';
 import { controllerLabel } from '../../lab/parameters';
 import type { Compared } from '../../lab/slices';
-import { drawGhost } from '../../plan/drawGhost';
+import { drawGhosts } from '../../plan/drawGhost';
 import type { LayerContext, MapLayer } from '../../plan/layer';
+import { Labels } from '../../plan/marks';
 
 export const GHOSTS_LAYER: MapLayer = {
   id: 'ghosts',
   label: 'Ghosts',
-  swatch: ['rl', 'errt', 'attractor'],
+  swatch: ['m-rl', 'm-errt', 'm-attractor'],
   group: 'Motion',
   shownAtFirst: true,
   isUnclipped: true,
@@ -19,16 +20,17 @@ export const GHOSTS_LAYER: MapLayer = {
       if (!comparison) return undefined;
       const tick = lab.comparison.tick();
       return (ctx, { view, palette }) => {
-        for (const branch of comparison.branches) {
+        const ghosts = comparison.branches.flatMap((branch) => {
           const ghost = ghostAt(comparison, branch, tick);
-          if (!ghost) continue;
-          drawGhost(ctx, view, palette, {
-            ...ghost,
-            colour: palette[branch.controller],
-            label: controllerLabel(branch),
-            path_m: branch.samples.map(([, , x_m, y_m]) => [x_m, y_m] as const),
-          });
-        }
+          if (!ghost) return [];
+          const places = branch.samples.map(([, , x_m, y_m]) => [x_m, y_m] as const);
+          const now = sampleAt(comparison, branch, tick);
+          const { controller } = branch;
+          const label = controllerLabel(branch);
+          const [path_m, ahead_m] = [places.slice(0, now + 1), places.slice(now)];
+          return [{ ...ghost, controller, label, path_m, ahead_m }];
+        });
+        drawGhosts(ctx, view, palette, ghosts, new Labels());
       };
     },
   }),

@@ -4,6 +4,7 @@ import { createMemo } from 'solid-js';
 import type { Plane, PlaneQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
 import type { LayerContext, MapLayer } from '../../plan/layer';
+import { RAMPS } from '../../plan/colourRamp';
 import { FieldLegend } from './FieldLegend';
 import { createFieldPicture, drawField } from './drawPlane';
 import { HALF_SIDE_M, planeQuery } from './plane';
@@ -13,7 +14,7 @@ import { palette } from '../../ui/palette';
 export const FIELD_LAYER: MapLayer = {
   id: 'field',
   label: 'Field and pull',
-  swatch: ['field-low', 'field-middle', 'field-high'],
+  swatch: RAMPS.field,
   group: 'Motion',
   create: ({ lab, isShown }: LayerContext<Session & Trial>) => {
     const answer = createAnswer<PlaneQuery, Plane>('/api/magnetics/plane', () => {

@@ -2,6 +2,7 @@
 
 import type { FlowField, SeenMessage } from '../../net/protocol.gen';
 import type { BasePicture } from '../../plan/layer';
+import { strokeCased } from '../../plan/marks';
 import { circle } from '../../plan/shapes';
 import { pxFromWorld } from '../../plan/transform';
 import { type Arrow, arrowPath } from '../../plan/arrows';
@@ -24,20 +25,18 @@ export function createFlow(field: FlowField, goal_m: Vec2, seen: SeenMessage): F
 }
 
 export function drawFlow(ctx: Ctx, { view, palette }: BasePicture, flow: Flow): void {
-  ctx.strokeStyle = palette.flow;
-  ctx.lineWidth = 1.1;
+  ctx.strokeStyle = palette['m-attractor'];
+  ctx.lineWidth = 1.4;
   for (const isSeen of [true, false]) {
     ctx.globalAlpha = isSeen ? 1 : UNSEEN_ALPHA;
     const arrows = flow.arrows.filter((arrow) => arrow.isSeen === isSeen);
     ctx.stroke(arrowPath(view, arrows));
   }
   ctx.globalAlpha = 1;
-  ctx.fillStyle = palette.danger;
-  ctx.strokeStyle = palette.floor;
-  ctx.lineWidth = 1.5;
+  ctx.fillStyle = palette['m-danger'];
   for (const trap of flow.traps) {
     circle(ctx, pxFromWorld(view, trap), TRAP_PX);
+    strokeCased(ctx, palette, { colour: palette['m-danger'], width_px: 1 });
     ctx.fill();
-    ctx.stroke();
   }
 }

@@ -16,7 +16,7 @@ const REQUESTS_PER_S = 4;
 export const FLOW_LAYER: MapLayer = {
   id: 'flow',
   label: 'Attractor flow',
-  swatch: ['flow'],
+  swatch: ['m-attractor'],
   group: 'Attractor',
   create: ({ lab, isShown }: LayerContext<Session & Trial & Pictures>) => {
     const asks = createMemo(

@@ -4,6 +4,7 @@ import type { PixelBlock } from '../../lab/homography';
 import { seenCells } from '../../lab/obstacleMap';
 import type { BlocksLayer, OverlayMessage, Rect, SeenMessage } from '../../net/protocol.gen';
 import { rgb } from '../../plan/colourRamp';
+import { strokeCased } from '../../plan/marks';
 import type { BasePicture } from '../../plan/layer';
 import { gridPixels, imageOf, type Rgba } from '../../plan/pixels';
 import { pxFromWorld, pxRect, type View } from '../../plan/transform';
@@ -61,7 +62,7 @@ export function drawBlocks(
   const dark = blockPath(view, layer, layer.dark);
   ctx.lineWidth = 0.75;
   ctx.globalAlpha = 0.5;
-  ctx.strokeStyle = palette['ink-3'];
+  ctx.strokeStyle = palette.sensed;
   ctx.stroke(blockPath(view, layer, layer.free));
   ctx.strokeStyle = palette.sensed;
   ctx.stroke(dark);
@@ -77,11 +78,9 @@ export function drawRectangles(
   { blocks: layer }: OverlayMessage,
 ): void {
   const path = blockPath(view, layer, layer.rectangles);
-  ctx.fillStyle = palette['error-x'];
-  ctx.strokeStyle = palette['error-x'];
+  ctx.fillStyle = palette.sensed;
   ctx.globalAlpha = 0.12;
   ctx.fill(path);
   ctx.globalAlpha = 1;
-  ctx.lineWidth = 1.25;
-  ctx.stroke(path);
+  strokeCased(ctx, palette, { colour: palette.sensed, width_px: 1.4 }, path);
 }

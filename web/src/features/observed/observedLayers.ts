@@ -26,7 +26,7 @@ export const BLOCKS_LAYER: MapLayer = {
   ...OF_CAMERA,
   id: 'blocks',
   label: 'Quadtree',
-  swatch: ['ink-3', 'sensed'],
+  swatch: ['sensed'],
   create: ({ lab }: LayerContext<Pictures>) => ({ aboveWalls: drawn(lab.overlay, drawBlocks) }),
 };
 
@@ -34,6 +34,6 @@ export const RECTANGLES_LAYER: MapLayer = {
   ...OF_CAMERA,
   id: 'rectangles',
   label: 'Rectangles',
-  swatch: ['error-x'],
+  swatch: ['sensed'],
   create: ({ lab }: LayerContext<Pictures>) => ({ aboveWalls: drawn(lab.overlay, drawRectangles) }),
 };

@@ -1,6 +1,7 @@
 // Draws ERRT's plan: the tree, the path with its clearance, and the obstacles.
 
 import type { PlanLayer } from '../../net/protocol.gen';
+import { strokeCased } from '../../plan/marks';
 import type { BasePicture } from '../../plan/layer';
 import { pxFromWorld, pxRect } from '../../plan/transform';
 import type { Ctx } from '../../plan/sheet';
@@ -19,9 +20,10 @@ export function drawPlan(ctx: Ctx, { view, palette }: BasePicture, plan: PlanLay
     corners.moveTo(x + CORNER_PX, y);
     corners.arc(x, y, CORNER_PX, 0, 2 * Math.PI);
   }
-  ctx.strokeStyle = palette.errt;
-  ctx.lineWidth = 0.75;
-  ctx.globalAlpha = 0.35;
+  const colour = palette['m-errt'];
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 0.9;
+  ctx.globalAlpha = 0.45;
   ctx.stroke(tree);
   ctx.lineJoin = 'round';
   ctx.lineCap = 'round';
@@ -31,17 +33,14 @@ export function drawPlan(ctx: Ctx, { view, palette }: BasePicture, plan: PlanLay
     ctx.stroke(way);
   }
   ctx.globalAlpha = 1;
-  ctx.lineWidth = 2;
-  ctx.stroke(way);
-  ctx.fillStyle = palette.errt;
+  strokeCased(ctx, palette, { colour, width_px: 2 }, way);
+  strokeCased(ctx, palette, { colour, width_px: 1 }, corners);
+  ctx.fillStyle = colour;
   ctx.fill(corners);
 }
 
 export function drawObstacles(ctx: Ctx, { view, palette }: BasePicture, plan: PlanLayer): void {
   ctx.beginPath();
   for (const rect of plan.obstacles) ctx.rect(...pxRect(view, rect));
-  ctx.strokeStyle = palette.errt;
-  ctx.lineWidth = 0.75;
-  ctx.globalAlpha = 0.7;
-  ctx.stroke();
+  strokeCased(ctx, palette, { colour: palette['m-errt'], width_px: 1, dash: [3, 2] });
 }

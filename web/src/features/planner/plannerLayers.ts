@@ -12,7 +12,7 @@ function ofPlan(
 ): MapLayer {
   return {
     ...layer,
-    swatch: ['errt'],
+    swatch: ['m-errt'],
     group: 'ERRT',
     create: ({ lab }: LayerContext<Pictures>) => ({
       aboveWalls: drawn(() => lab.overlay()?.plan ?? undefined, draw),

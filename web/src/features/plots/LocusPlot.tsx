@@ -3,7 +3,8 @@
 import { createEffect, createMemo, createSignal, onMount, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
 import { onSize } from '../../ui/size';
-import { drawBorder, drawFloor, wallPath } from '../../plan/drawMap';
+import { drawBorder, drawFloor } from '../../plan/drawMap';
+import { wallPath } from '../../plan/tray';
 import { contextOf } from '../../plan/sheet';
 import { fitView, type View } from '../../plan/transform';
 import { drawLocus, placesAt, sampleAt } from './drawLocus';

@@ -17,6 +17,9 @@ const INTERVALS = 300;
 /** Columns with peaks. The tool is too slow for peaks. */
 const PEAKS: readonly Column[] = ['bead_x_m', 'bead_y_m', 'error_m'];
 
+/** Columns of a table. */
+const WRITTEN = COLUMNS.filter((name) => name !== 'controller');
+
 export interface Struck {
   readonly time_s: number;
   /** Where the bead was. */
@@ -144,7 +147,7 @@ export function nearestIndex(times: Float64Array, time_s: number): number | unde
 /** The window as CSV with every sample, in metres and seconds. `disturbed` counts disturbances since the previous line. */
 export function csvOf(history: History, { from_s, to_s, struck }: Sample): string {
   const all = history.window(from_s, to_s);
-  const lines = [[...COLUMNS, 'disturbed'].join(',')];
+  const lines = [[...WRITTEN, 'disturbed'].join(',')];
   let next = 0;
   all.sim_time_s.forEach((time_s, index) => {
     let disturbed = 0;
@@ -152,7 +155,7 @@ export function csvOf(history: History, { from_s, to_s, struck }: Sample): strin
       disturbed += 1;
       next += 1;
     }
-    const cells = COLUMNS.map((name) => String(Number((all[name][index] ?? 0).toFixed(6))));
+    const cells = WRITTEN.map((name) => String(Number((all[name][index] ?? 0).toFixed(6))));
     lines.push([...cells, disturbed].join(','));
   });
   return `${lines.join('\n')}\n`;

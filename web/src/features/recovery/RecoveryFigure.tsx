@@ -27,7 +27,7 @@ function Patterns(): JSX.Element {
       </pattern>
       <pattern id="recovery-lost" width="8" height="8" patternUnits="userSpaceOnUse">
         <rect class="lost-ground" width="8" height="8" />
-        <path class="lost-lines" d="M2 2l4 4M6 2l-4 4" />
+        <path class="lost-lines" d="M0 0l8 8M8 0l-8 8" />
       </pattern>
     </defs>
   );

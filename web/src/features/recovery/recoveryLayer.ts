@@ -3,17 +3,18 @@
 import { createEffect, createMemo, on } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import type { LayerContext, MapLayer } from '../../plan/layer';
+import { strokeCased } from '../../plan/marks';
+import type { Ctx } from '../../plan/sheet';
 import { pxFromWorld, type View } from '../../plan/transform';
 import { cellAt, type Look, looksOf, rowsOf } from './cells';
 import * as store from './store';
 import type { Palette } from '../../ui/palette';
 
-const FAINTEST = 0.15;
-const DENSEST = 0.55;
-const LINE_PX = 1;
-const STRIPE_PX = 7;
+const FAINTEST = 0.4;
 /** Left free around each cell. */
-const GAP_PX = 1;
+const GAP_PX = 1.5;
+const CORNER_PX = 3;
+const TILE_PX = 8;
 
 interface Square {
   readonly x_m: number;
@@ -23,72 +24,71 @@ interface Square {
   readonly isDropped: boolean;
 }
 
-const COLOURS: Readonly<Record<Look['kind'], keyof Palette>> = {
-  delivered: 'magnet',
-  first: 'magnet',
-  late: 'bead',
-  second: 'bead',
-  lost: 'danger',
-  equal: 'ink-3',
+/** Ground and lines of a cell's pattern; plain without lines. */
+const LOOKS: Readonly<Record<Look['kind'], readonly [keyof Palette, (keyof Palette)?]>> = {
+  delivered: ['delivered'],
+  first: ['delivered'],
+  late: ['late', 'late-stripes'],
+  second: ['late', 'late-stripes'],
+  lost: ['lost', 'lost-lattice'],
+  equal: ['unseen'],
 };
 
-/** Stripes for late and for the second, crosses for lost: the layer is read without its colours, too. */
-function hatch(
-  ctx: CanvasRenderingContext2D,
-  [left, top, side]: readonly [number, number, number],
-  isCrossed: boolean,
-): void {
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, side, side);
-  ctx.clip();
-  ctx.beginPath();
-  for (let at = -side; at < side; at += STRIPE_PX) {
-    ctx.moveTo(left + at, top + side);
-    ctx.lineTo(left + at + side, top);
-    if (isCrossed) {
-      ctx.moveTo(left + at, top);
-      ctx.lineTo(left + at + side, top + side);
-    }
+/** Stripes, or a lattice for lost: the layer is read without its colours, too. */
+function patternOf(ctx: Ctx, palette: Palette, kind: Look['kind']): CanvasPattern | string {
+  const [ground, lines] = LOOKS[kind];
+  if (!lines) return palette[ground];
+  const ratio = ctx.getTransform().a;
+  const tile = document.createElement('canvas');
+  tile.width = Math.round(TILE_PX * ratio);
+  tile.height = tile.width;
+  const onto = tile.getContext('2d');
+  if (!onto) return palette[ground];
+  const scale = tile.width / TILE_PX;
+  onto.scale(scale, scale);
+  onto.fillStyle = palette[ground];
+  onto.fillRect(0, 0, TILE_PX, TILE_PX);
+  onto.strokeStyle = palette[lines];
+  onto.lineWidth = kind === 'lost' ? 1.4 : 2.6;
+  for (const [x, y] of [
+    [0, 0],
+    [-TILE_PX, 0],
+    [TILE_PX, 0],
+  ] as const) {
+    onto.moveTo(x - 1, y + TILE_PX + 1);
+    onto.lineTo(x + TILE_PX + 1, y - 1);
+    if (kind !== 'lost') continue;
+    onto.moveTo(x - 1, y - 1);
+    onto.lineTo(x + TILE_PX + 1, y + TILE_PX + 1);
   }
-  ctx.stroke();
-  ctx.restore();
+  onto.stroke();
+  const pattern = ctx.createPattern(tile, 'repeat');
+  pattern?.setTransform(new DOMMatrix().scale(1 / scale));
+  return pattern ?? palette[ground];
 }
 
-function draw(
-  ctx: CanvasRenderingContext2D,
-  view: View,
-  palette: Palette,
-  squares: readonly Square[],
-): void {
+function draw(ctx: Ctx, view: View, palette: Palette, squares: readonly Square[]): void {
+  const fills = new Map<Look['kind'], CanvasPattern | string>();
   for (const { x_m, y_m, size_m, look, isDropped } of squares) {
+    const fill = fills.get(look.kind) ?? patternOf(ctx, palette, look.kind);
+    fills.set(look.kind, fill);
     const [left, top] = pxFromWorld(view, [x_m - size_m / 2, y_m + size_m / 2]);
-    const side = size_m * view.pxPerM - GAP_PX;
-    const colour = palette[COLOURS[look.kind]];
-    ctx.fillStyle = colour;
-    ctx.strokeStyle = colour;
-    ctx.lineWidth = LINE_PX;
-    if (look.kind === 'delivered' || look.kind === 'first') {
-      ctx.globalAlpha = FAINTEST + (DENSEST - FAINTEST) * look.strength;
-      ctx.fillRect(left, top, side, side);
-      ctx.globalAlpha = 1;
-    } else if (look.kind !== 'equal') {
-      ctx.globalAlpha = DENSEST;
-      hatch(ctx, [left, top, side], look.kind === 'lost');
-      ctx.globalAlpha = 1;
-    }
-    if (isDropped) {
-      ctx.strokeStyle = palette.you;
-      ctx.lineWidth = 3 * LINE_PX;
-      ctx.strokeRect(left, top, side, side);
-    }
+    const side = Math.max(1, size_m * view.pxPerM - GAP_PX);
+    const isPlain = look.kind === 'delivered' || look.kind === 'first';
+    ctx.globalAlpha = isPlain ? FAINTEST + (1 - FAINTEST) * look.strength : 1;
+    ctx.fillStyle = fill;
+    ctx.beginPath();
+    ctx.roundRect(left + GAP_PX / 2, top + GAP_PX / 2, side, side, Math.min(CORNER_PX, side / 4));
+    ctx.fill();
+    ctx.globalAlpha = 1;
+    if (isDropped) strokeCased(ctx, palette, { colour: palette['m-you'], width_px: 2.6 });
   }
 }
 
 export const RECOVERY_LAYER: MapLayer = {
   id: 'recovery',
   label: 'Recovery',
-  swatch: ['magnet', 'bead', 'danger'],
+  swatch: ['delivered', 'late', 'lost'],
   group: 'Motion',
   shownAtFirst: true,
   create: ({ lab }: LayerContext<Session & Trial>) => {

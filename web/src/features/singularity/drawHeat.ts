@@ -4,7 +4,7 @@ import type { WorkspaceMap } from '../../net/protocol.gen';
 import type { BasePicture } from '../../plan/layer';
 import { imageOf } from '../../plan/pixels';
 import { pxFromWorld } from '../../plan/transform';
-import { heatRamp } from '../../plan/colourRamp';
+import { rampOf } from '../../plan/colourRamp';
 import { heatPixels, refusedRuns, type Run } from './heat';
 import type { Ctx } from '../../plan/sheet';
 import type { Palette } from '../../ui/palette';
@@ -19,7 +19,7 @@ export interface Heat {
 }
 
 export function createHeat(map: WorkspaceMap, palette: Palette): Heat {
-  const image = imageOf(heatPixels(map, heatRamp(palette)), map.columns);
+  const image = imageOf(heatPixels(map, rampOf(palette, 'heat')), map.columns);
   return { map, image, refused: refusedRuns(map) };
 }
 
@@ -46,11 +46,9 @@ export function drawHeat(ctx: Ctx, { view, palette }: BasePicture, heat: Heat): 
   }
   ctx.save();
   ctx.clip(cells);
-  ctx.fillStyle = palette.danger;
-  ctx.globalAlpha = 0.15;
+  ctx.fillStyle = palette['singular-low'];
   ctx.fillRect(left, top, columns * side, rows * side);
-  ctx.globalAlpha = 0.8;
-  ctx.strokeStyle = palette.danger;
+  ctx.strokeStyle = palette.case;
   ctx.lineWidth = 1.25;
   hatch(ctx, left, top, columns * side, rows * side);
   ctx.restore();

@@ -4,6 +4,7 @@ import { Show, createMemo } from 'solid-js';
 import type { WorkspaceMap, WorkspaceQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
 import { drawn, type LayerContext, type MapLayer } from '../../plan/layer';
+import { RAMPS } from '../../plan/colourRamp';
 import { HeatLegend } from './HeatLegend';
 import { createHeat, drawHeat } from './drawHeat';
 import { workspaceQuery } from './heat';
@@ -13,7 +14,7 @@ import { palette } from '../../ui/palette';
 export const SINGULARITY_LAYER: MapLayer = {
   id: 'singularity',
   label: 'Singularity',
-  swatch: ['danger'],
+  swatch: RAMPS.heat,
   group: 'Arm',
   unavailable: (lab: Trial) =>
     lab.scene()?.positioner === 'planar_stage'

@@ -8,7 +8,7 @@ import {
   type TrainingCells,
   type TrainingFrame,
 } from '../../net/protocol.gen';
-import { wallPath } from '../../plan/drawMap';
+import { Relief } from '../../plan/relief';
 import { createValues } from '../../plan/drawValues';
 import { ARROWS } from '../../plan/gesture';
 import { contextOf } from '../../plan/sheet';
@@ -57,9 +57,9 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
     const [rect, now] = [shown(), size()];
     return rect && now && fitView(rect, now.width, now.height, MARGIN);
   });
-  const walls = createMemo(() => {
-    const now = view();
-    return now && wallPath(props.map?.outlines ?? [], now);
+  const relief = createMemo(() => {
+    const rect = workspace();
+    return rect && new Relief({ workspace: rect, walls: props.map?.outlines ?? [] }, palette());
   });
   const values = createMemo(() => {
     const { cells, frame, range } = props;
@@ -68,12 +68,12 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   onMount(() => {
     onSize(base, setSize);
     createEffect(() => {
-      const [now, px, rect, outlines] = [view(), size(), workspace(), walls()];
+      const [now, px, walls] = [view(), size(), relief()];
       const { layers, cells, frame, chosen } = props;
       const ctx = px && contextOf(base, px);
-      if (!ctx || !now || !rect || !outlines) return;
+      if (!ctx || !now || !walls) return;
       drawBase(ctx, {
-        ...{ view: now, palette: palette(), workspace: rect, walls: outlines, layers },
+        ...{ view: now, palette: palette(), relief: walls, layers },
         ...{ cells, frame, chosen, values: values() },
       });
     });

@@ -3,12 +3,12 @@
 import type { Vec2 } from '../../lab/geometry';
 import type {
   EpisodeEnding,
-  Rect,
   TrainingCells,
   TrainingEpisode,
   TrainingFrame,
 } from '../../net/protocol.gen';
-import { drawFloor, drawOutlines } from '../../plan/drawMap';
+import { drawFloor } from '../../plan/drawMap';
+import type { Relief } from '../../plan/relief';
 import { drawGoal } from '../../plan/drawMoving';
 import { drawArrows, drawColours, type Values } from '../../plan/drawValues';
 import { pxFromWorld, type View } from '../../plan/transform';
@@ -27,8 +27,7 @@ export interface Layers {
 interface Base {
   readonly view: View;
   readonly palette: Palette;
-  readonly workspace: Rect;
-  readonly walls: Path2D;
+  readonly relief: Relief;
   readonly layers: Layers;
   readonly cells: TrainingCells | undefined;
   readonly frame: TrainingFrame | undefined;
@@ -92,12 +91,12 @@ function drawChosen(ctx: Ctx, { view, palette }: Base, cells: TrainingCells, cen
 }
 
 export function drawBase(ctx: Ctx, base: Base): void {
-  const { view, palette, layers, cells, frame, values } = base;
-  drawFloor(ctx, base.workspace, view, palette);
+  const { view, palette, relief, layers, cells, frame, values } = base;
+  drawFloor(ctx, relief.tray.workspace, view, palette);
   if (values && layers.values) drawColours(ctx, view, values);
-  drawOutlines(ctx, base.workspace, base.walls, view, palette);
+  relief.draw(ctx, view, true);
   if (cells && frame && layers.starts) drawStarts(ctx, base, cells, frame);
-  if (values && layers.arrows) drawArrows(ctx, view, palette, values);
+  if (values && layers.arrows) drawArrows(ctx, view, values);
   if (!cells) return;
   drawGoal(ctx, view, palette, cells.goal_m);
   const center = base.chosen === undefined ? undefined : cells.centers_m[base.chosen];

@@ -6,6 +6,7 @@ import { createAnswer } from '../../net/requests';
 import { sessionPath } from '../../net/session';
 import { drawn, type LayerContext, type MapLayer } from '../../plan/layer';
 import { ValueLegend } from './ValueLegend';
+import { RAMPS } from '../../plan/colourRamp';
 import { createValues, drawArrows, drawColours } from '../../plan/drawValues';
 import { valueKey } from './value';
 import type { Pictures, Session, Trial } from '../../lab/slices';
@@ -16,7 +17,7 @@ const REQUESTS_PER_S = 4;
 export const VALUE_LAYER: MapLayer = {
   id: 'value',
   label: 'Value',
-  swatch: ['heat-low', 'heat-middle', 'heat-high'],
+  swatch: RAMPS.value,
   group: 'RL',
   create: ({ lab, isShown }: LayerContext<Session & Trial & Pictures>) => {
     const key = createMemo(() => {
@@ -46,9 +47,9 @@ export const VALUE_LAYER: MapLayer = {
       return now && createValues(now, palette());
     });
     return {
-      belowWalls: drawn(values, (ctx, { view, palette }, now) => {
+      belowWalls: drawn(values, (ctx, { view }, now) => {
         drawColours(ctx, view, now);
-        drawArrows(ctx, view, palette, now);
+        drawArrows(ctx, view, now);
       }),
       legend: () => <ValueLegend map={map()} error={error()} hasGoal={lab.goal() !== undefined} />,
     };
