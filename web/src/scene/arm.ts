@@ -84,14 +84,13 @@ class Link {
       this.rods.push({ from, to, radius_m });
       this.rodsNow.push({ from: from.clone(), to: to.clone(), radius_m });
     }
-    this.surfaces = this.group.children as Mesh[];
+    this.surfaces = this.group.children.filter((one) => one instanceof Mesh);
     const whole = mergeGeometries(this.surfaces.map(({ geometry }) => geometry));
     this.others = [new Mesh(whole, depth), new Mesh(grown(whole.clone()), outline)];
     this.others.forEach((mesh, i) => {
       mesh.renderOrder = i === 0 ? FADED_ORDER.depth : FADED_ORDER.outline;
       mesh.visible = false;
     });
-    this.surfaces = [...this.surfaces];
     this.group.add(...this.others);
   }
 

@@ -1,4 +1,4 @@
-// The bead with its ring, and the hand's spring.
+// The bead with its ring, and the arrow of the hand's pull.
 
 import { AlwaysDepth, CircleGeometry, Group, Mesh, Object3D, SphereGeometry, Vector3 } from 'three';
 import type { PerspectiveCamera } from 'three';
@@ -17,28 +17,15 @@ const DASHES = 10;
 /** Of the ring's area, and while a press would grab the bead. */
 const FILL_OPACITY = { free: 0.16, near: 0.4 };
 
-const COILS = 10;
-const COIL_POINTS = 14;
-const COIL_M = 0.0035;
-/** Share of straight wire at each end of the spring. */
-const LEAD = 0.12;
+/** Of the arrow: a dash with its gap, the share of the dash, and the two lines of its head. */
+const DASH_M = 0.014;
+const DASH = 0.6;
+const HEAD_M = 0.014;
+const HEAD_RAD = 0.45;
+const MOST_DASHES = 80;
 /** Height of the hand over the table, normally and while it lifts. */
 const HAND_UP_M = 0.012;
 const LIFTED_UP_M = 0.04;
-const UP = new Vector3(0, 0, 1);
-
-/** The spring with a length and a radius of 1, upright. */
-function coil(paints: Paints): Strokes {
-  const points = COILS * COIL_POINTS;
-  const style = { width_px: 2, through: true, isCased: true };
-  const spring = new Strokes(paints, 'm-you', points + 2, style);
-  spring.move(0, 0, 0);
-  for (let i = 0; i <= points; i++) {
-    const angle = (2 * Math.PI * i) / COIL_POINTS;
-    spring.line(Math.cos(angle), Math.sin(angle), LEAD + ((1 - 2 * LEAD) * i) / points);
-  }
-  return spring.line(0, 0, 1).done();
-}
 
 /** A dashed circle with a radius of 1. */
 function dashedRing(paints: Paints): Strokes {
@@ -61,7 +48,7 @@ export class Bead {
   private readonly ball = new Object3D();
   private readonly ring = new Object3D();
   private readonly fills: { free: Mesh; near: Mesh };
-  private readonly spring: Strokes;
+  private readonly arrow: Strokes;
   private readonly grip: Mesh;
   private readonly at = new Vector3();
   private readonly along = new Vector3();
@@ -86,12 +73,13 @@ export class Bead {
     marks.renderOrder = ORDER.marks;
     marks.add(this.ring);
 
-    this.spring = coil(paints);
+    const style = { width_px: 3, through: true, isCased: true };
+    this.arrow = new Strokes(paints, 'm-you', MOST_DASHES + 2, style);
     this.grip = new Mesh(new SphereGeometry(0.006, 24, 16), paints.glowing('m-you'));
     this.group.renderOrder = ORDER.bead;
     const air = new Group();
     air.renderOrder = ORDER.air;
-    air.add(this.spring.object, this.grip);
+    air.add(this.arrow.object, this.grip);
     this.group.add(this.ball, marks, air);
     this.pull(undefined);
     this.canGrab(false);
@@ -106,20 +94,30 @@ export class Bead {
     this.fills.free.visible = !near;
   }
 
-  /** Draws the spring from the bead to the hand, or removes it. Call it after `place`. */
+  /** Draws the arrow from the bead to the hand, or removes it. Call it after `place`. */
   pull(pull: Pull | undefined): void {
     const { along, at, grip } = this;
-    const spring = this.spring.object;
+    const arrow = this.arrow.clear();
     grip.visible = pull !== undefined;
-    spring.visible = pull !== undefined;
-    if (!pull) return;
-    grip.position.set(...pull.hand_m, pull.isLifted ? LIFTED_UP_M : HAND_UP_M);
-    along.subVectors(grip.position, at);
-    const length_m = along.length();
-    const radius_m = Math.min(COIL_M, 0.15 * length_m);
-    spring.position.copy(at);
-    spring.scale.set(radius_m, radius_m, length_m);
-    spring.quaternion.setFromUnitVectors(UP, along.normalize());
+    if (pull) {
+      grip.position.set(...pull.hand_m, pull.isLifted ? LIFTED_UP_M : HAND_UP_M);
+      along.subVectors(grip.position, at);
+      const length_m = along.length();
+      const dashes = Math.min(MOST_DASHES, Math.ceil(length_m / DASH_M));
+      for (let i = 0; i < dashes; i++) {
+        const [from, to] = [i / dashes, Math.min(1, (i + DASH) / dashes)];
+        arrow.move(at.x + from * along.x, at.y + from * along.y, at.z + from * along.z);
+        arrow.line(at.x + to * along.x, at.y + to * along.y, at.z + to * along.z);
+      }
+      const back_rad = Math.atan2(-along.y, -along.x);
+      const { x, y, z } = grip.position;
+      for (const side of length_m > HEAD_M ? [-HEAD_RAD, HEAD_RAD] : []) {
+        const angle = back_rad + side;
+        arrow.move(x, y, z);
+        arrow.line(x + HEAD_M * Math.cos(angle), y + HEAD_M * Math.sin(angle), z);
+      }
+    }
+    arrow.done();
   }
 
   /** Sets the sizes that are given in screen pixels. */

@@ -3,6 +3,7 @@
 import { CircleGeometry, Group, Mesh, type Object3D } from 'three';
 import type { History } from '../lab/history';
 import { GOAL_RADIUS_M, type SceneMessage, type StateMessage } from '../net/protocol.gen';
+import { startOf } from '../plan/paint';
 import { ORDER, type PaintName, type Paints } from './paints';
 import type { LoadedLayer, SceneObject } from './sceneLayer';
 import { Strokes } from './strokes';
@@ -15,6 +16,7 @@ const CURSOR_UP_M = 2e-3;
 const CURSOR_M = [0.004, 0.014] as const;
 const TRACKED_M = 0.005;
 const CROSS_M = 0.006;
+const START_M = 0.005;
 
 /** Four lines around a free middle. */
 function crosshair(paints: Paints): Strokes {
@@ -31,6 +33,7 @@ function crosshair(paints: Paints): Strokes {
 export class Marks {
   readonly group = new Group();
   private readonly goal = new Group();
+  private readonly start: Object3D;
   private readonly objects: readonly (SceneObject & { readonly id: string })[];
   private readonly tracked: Object3D;
   private readonly cursor: Object3D;
@@ -40,7 +43,11 @@ export class Marks {
   private readonly plumb: Object3D;
   private readonly steering: Strokes;
 
-  constructor(paints: Paints, scene: SceneMessage, layers: readonly LoadedLayer[]) {
+  constructor(
+    paints: Paints,
+    private readonly scene: SceneMessage,
+    layers: readonly LoadedLayer[],
+  ) {
     const strokes = (name: PaintName, capacity: number, width_px: number): Strokes =>
       new Strokes(paints, name, capacity, { width_px, through: true, isCased: true });
     this.objects = layers.map(({ id, create }) => ({ id, ...create(paints, scene) }));
@@ -53,6 +60,8 @@ export class Marks {
     const spot = strokes('magnet', 24, 1.5);
     this.spot = spot.circle(0, 0, 0, CROSS_M, 24).done().object;
 
+    this.start = strokes('m-ink', 24, 2).circle(0, 0, 0, START_M, 24).done().object;
+
     const ring = strokes('m-goal', 66, 2.5);
     ring.circle(0, 0, 0, GOAL_RADIUS_M).cross(0, 0, 0, CROSS_M).done();
     const disc = new Mesh(
@@ -64,7 +73,7 @@ export class Marks {
     air.renderOrder = ORDER.air;
     air.add(this.plumb);
     this.group.renderOrder = ORDER.marks;
-    this.group.add(this.goal, air, ...this.objects.map(({ object }) => object));
+    this.group.add(this.start, this.goal, air, ...this.objects.map(({ object }) => object));
     this.group.add(this.tracked, this.cursor, this.spot, this.steering.object);
   }
 
@@ -75,6 +84,9 @@ export class Marks {
       one.object.visible = layers.has(one.id);
       if (one.object.visible) one.place(state, history);
     }
+    const start = startOf(this.scene, history);
+    this.start.visible = start !== undefined;
+    if (start) this.start.position.set(...start, TOOL_UP_M);
     this.goal.visible = state.goal_m !== null;
     if (state.goal_m) this.goal.position.set(state.goal_m[0], state.goal_m[1], GOAL_UP_M);
     this.tracked.position.set(...state.bead_tracked_m, TOOL_UP_M);

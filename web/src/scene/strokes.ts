@@ -37,7 +37,8 @@ export class Strokes {
       const lines = new LineSegments2(geometry, material);
       // Otherwise every change would need new bounds.
       lines.frustumCulled = false;
-      lines.renderOrder = i;
+      // All casings lie below all lines.
+      lines.renderOrder = i === materials.length - 1 && name !== 'case' ? 1 : 0;
       this.object.add(lines);
     });
   }

@@ -18,7 +18,7 @@ export const sceneCapture: CreateSceneObject = (paints, scene) => {
   const corners = sectors.flatMap(({ inner: [a, b], outer: [c, d] }) => [a, c, d, a, d, b]);
   const fill = triangles(corners.map(([x, y]): Point => [x, y, UP_M]));
   const object = new Group().add(
-    new Mesh(fill, paints.flat('south', { clipped: true, opacity: 0.14 })),
+    new Mesh(fill, paints.flat('field-high', { clipped: true, opacity: 0.16 })),
     edge.done().object,
   );
   return {
