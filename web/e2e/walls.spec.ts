@@ -132,6 +132,8 @@ test('draws the moving walls in the 3-D view, and frees them at rest', LONG, asy
   test.setTimeout(240_000);
   const spot = await prepare(lab);
   await openSceneView(lab);
+  // From the front, a wall would hide the places behind it.
+  await lab.button('Top').click();
   // Trails have objects, too.
   for (let i = 0; i < 5; i++) await lab.step(10);
   const free = await scenePicture(lab, spot.at);

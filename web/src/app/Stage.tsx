@@ -10,9 +10,8 @@ import { insidePolygon } from '../lab/geometry';
 import type { Lab } from '../lab/slices';
 import { createLayers } from '../plan/layer';
 import type { Interaction } from '../plan/interaction';
-import { PlanView } from '../plan/PlanView';
 import type { ViewPicture } from '../plan/viewPicture';
-import { ScenePanel } from '../scene/ScenePanel';
+import { MapView } from '../scene/MapView';
 import { fixed } from '../ui/format';
 import { Icon } from '../ui/Icon';
 import { endWords } from '../words/facts';
@@ -61,6 +60,7 @@ export function Stage(props: {
       ? undefined
       : 'No connection. This is the last received state.';
   };
+  // The 3-D view has no fog.
   const isScene = (): boolean => lab.sight() === 'all' && props.mode === 'scene';
   const surfaceProps = {
     lab,
@@ -75,20 +75,20 @@ export function Stage(props: {
   return (
     <main ref={stage} class="stage" data-mode={isScene() ? 'scene' : 'plan'}>
       <div class="map-box">
-        <Switch fallback={<PlanView {...surfaceProps} />}>
-          <Match when={lab.sight() === 'camera'}>
-            <CameraView {...surfaceProps} notices={lab} />
-          </Match>
-          {/* The 3-D view has no fog. */}
-          <Match when={isScene()}>
-            <ScenePanel
+        <Show
+          when={lab.sight() === 'camera'}
+          fallback={
+            <MapView
               {...surfaceProps}
+              mode={isScene() ? 'scene' : 'plan'}
               onPlan={() => {
                 props.onMode('plan');
               }}
             />
-          </Match>
-        </Switch>
+          }
+        >
+          <CameraView {...surfaceProps} notices={lab} />
+        </Show>
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
       </div>
       <div class="band over">

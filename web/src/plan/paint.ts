@@ -63,7 +63,7 @@ export function pullOf(act: Act, state: StateMessage, scene: SceneMessage): Pull
 }
 
 /** Where the bead was at first; undefined if this page has not seen that. */
-function startOf({ scenario }: SceneMessage, history: History): Vec2 | undefined {
+export function startOf({ scenario }: SceneMessage, history: History): Vec2 | undefined {
   if (scenario.start_m) return scenario.start_m;
   if (history.before(0, 'tick') !== 0) return undefined;
   return [history.before(0, 'bead_x_m'), history.before(0, 'bead_y_m')];

@@ -12,7 +12,7 @@ import {
   type JSX,
 } from 'solid-js';
 import type { ViewpointName } from './viewpoints';
-import type { SceneView } from './SceneView';
+import type { Colours, SceneView } from './SceneView';
 import type { InScene, LoadedLayer } from './sceneLayer';
 import { createBaseMap } from '../plan/baseMap';
 import type { Surface } from '../plan/interaction';
@@ -22,9 +22,12 @@ import { pullOf } from '../plan/paint';
 import type { SurfaceProps } from '../plan/PlanView';
 import type { Size } from '../ui/size';
 import { ViewCanvas } from '../plan/ViewCanvas';
-import { SmallButton } from '../ui/SmallButton';
 import { reasonText } from '../net/problem';
+import { prefersLessMotion } from '../ui/motion';
 import { palette } from '../ui/palette';
+import { theme } from '../ui/theme';
+import type { TableView } from '../lab/geometry';
+import { drawsSlowly } from './graphics';
 import './scene.css';
 
 const VIEWPOINTS: readonly ViewpointName[] = ['Home', 'Top', 'Front', 'Side'];
@@ -48,6 +51,14 @@ export function ScenePanel(
     isFixed?: boolean;
     /** Bead, trails and goal can be recognised from far away. */
     isBold?: boolean;
+    /** Shift of the picture to the right, as a share of its width: on the left there is text. */
+    shift?: number;
+    /** The picture of the plan view, if the user comes from there. */
+    plan?: TableView | undefined;
+    /** The camera flies to that picture. */
+    isLeaving?: boolean;
+    /** Called when it is there. */
+    onLeft?: () => void;
     /** Called when the view cannot be shown. */
     onProblem?: () => void;
   },
@@ -57,6 +68,9 @@ export function ScenePanel(
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
+  const [viewpoint, setViewpoint] = createSignal<ViewpointName | undefined>('Home');
+  const wantsLessMotion = prefersLessMotion();
+  const colours = (): Colours => ({ palette: palette(), isDark: theme() === 'dark' });
   let isGone = false;
 
   const open = async (canvas: HTMLCanvasElement): Promise<void> => {
@@ -67,7 +81,20 @@ export function ScenePanel(
       throw new Error('The 3-D view could not be loaded from the server.');
     });
     if (isGone) return;
-    setDrawing(new SceneView(canvas, untrack(palette), inScene, interaction.setView, props.isBold));
+    const options = {
+      colours: untrack(colours),
+      layers: inScene,
+      onView: (view: TableView) => {
+        interaction.setView(view);
+        setViewpoint(drawing()?.orbit.viewpoint);
+      },
+      isBold: props.isBold ?? false,
+      shift: props.shift ?? 0,
+      isSlow: drawsSlowly(),
+      wantsLessMotion,
+      plan: props.plan,
+    };
+    setDrawing(new SceneView(canvas, options));
   };
   const start = (canvas: HTMLCanvasElement): void => {
     open(canvas).catch((reason: unknown) => {
@@ -102,11 +129,18 @@ export function ScenePanel(
     ),
   );
   createEffect(() => {
-    drawing()?.recolor(palette());
+    drawing()?.recolor(colours());
   });
   createEffect(() => {
     const scene = lab.scene();
     if (scene) drawing()?.show(scene);
+  });
+  createEffect(() => {
+    if (!props.isLeaving) return;
+    const [view, plan] = untrack(() => [drawing(), props.plan]);
+    const left = (): void => props.onLeft?.();
+    if (view && plan) view.orbit.leave(plan, left);
+    else left();
   });
 
   const picture = createMemo<FloorPicture | undefined>(
@@ -206,17 +240,22 @@ export function ScenePanel(
           <div class="looks" role="group" aria-label="Viewpoint">
             <For each={VIEWPOINTS}>
               {(name) => (
-                <SmallButton
+                <button
+                  type="button"
+                  aria-pressed={viewpoint() === name}
                   onClick={() => {
                     view().orbit.take(name);
                   }}
                 >
                   {name}
-                </SmallButton>
+                </button>
               )}
             </For>
           </div>
         )}
+      </Show>
+      <Show when={drawing() && drawsSlowly()}>
+        <p class="scene-slow">Slow here: this browser draws without a graphics card.</p>
       </Show>
     </>
   );

@@ -1,18 +1,20 @@
 // The 3-D scene: takes its inputs and draws one frame when something has changed.
 
-import { Group, PCFShadowMap, Scene, WebGLRenderer, type Object3D } from 'three';
+import { Group, Scene, Vector3, VSMShadowMap, WebGLRenderer, type Object3D } from 'three';
 import type { History } from '../lab/history';
 import type { MovedWalls } from '../lab/movedWalls';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { UnderTool } from '../plan/layer';
 import type { FloorPicture } from '../plan/floorPicture';
-import { Arm, HIDING } from './arm';
+import { Arm } from './arm';
 import type { Pull } from '../plan/paint';
 import { Bead } from './bead';
-import { OrbitCamera } from './orbitCamera';
+import { RING_PX } from './fading';
 import { Floor, underTool } from './floor';
+import { Frames } from './frames';
 import { Light } from './light';
 import { Marks } from './marks';
+import { OrbitCamera } from './orbitCamera';
 import type { LoadedLayer } from './sceneLayer';
 import { Paints } from './paints';
 import { dispose } from './solids';
@@ -46,10 +48,31 @@ interface Setting {
   readonly bead: Bead;
 }
 
+export interface Colours {
+  readonly palette: Palette;
+  readonly isDark: boolean;
+}
+
+export interface SceneOptions {
+  readonly colours: Colours;
+  readonly layers: readonly LoadedLayer[];
+  /** Called when the view of the table has changed. */
+  readonly onView: (view: TableView) => void;
+  /** Bead, trails and goal can be recognised from far away. */
+  readonly isBold: boolean;
+  /** Of the picture to the right, as a share of its width. */
+  readonly shift: number;
+  /** There is no graphics card. */
+  readonly isSlow: boolean;
+  readonly wantsLessMotion: () => boolean;
+  /** The view starts with the picture of the plan view. */
+  readonly plan: TableView | undefined;
+}
+
 export class SceneView {
   private readonly renderer: WebGLRenderer;
   private readonly world = new Scene();
-  private readonly light = new Light();
+  private readonly light: Light;
   private readonly paints: Paints;
   private readonly arm: Arm;
   readonly orbit: OrbitCamera;
@@ -58,16 +81,13 @@ export class SceneView {
   /** Pictures that move with the tool. */
   private readonly underTool = new Group();
   private now: Now | undefined;
-  private frame: number | undefined;
+  private colours: Colours;
+  private readonly frames = new Frames((elapsed_ms) => this.advance(elapsed_ms));
 
   /** Throws an error for the user if this browser cannot draw 3-D. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private palette: Palette,
-    private readonly layers: readonly LoadedLayer[],
-    /** Called when the view of the table has changed. */
-    private readonly onView: (view: TableView) => void,
-    isBold = false,
+    private readonly options: SceneOptions,
   ) {
     // Requested here, because the library logs an error if there is no context.
     const context = canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
@@ -76,15 +96,24 @@ export class SceneView {
     this.renderer.setClearAlpha(0);
     this.renderer.localClippingEnabled = true;
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
-    this.paints = new Paints(palette, isBold);
+    this.renderer.shadowMap.type = VSMShadowMap;
+    this.renderer.shadowMap.autoUpdate = false;
+    this.colours = options.colours;
+    this.paints = new Paints(this.colours.palette, options.isBold);
+    this.light = new Light(options.isSlow);
     this.arm = new Arm(this.paints);
     this.arm.group.visible = false;
     this.world.add(this.light.group, this.arm.group, this.underTool);
-    this.orbit = new OrbitCamera(() => {
-      this.updateView();
-    });
-    canvas.addEventListener('webglcontextrestored', this.request);
+    this.orbit = new OrbitCamera(
+      () => {
+        this.updateView();
+      },
+      options.shift,
+      options.wantsLessMotion,
+      options.plan,
+    );
+    this.recolor(this.colours);
+    canvas.addEventListener('webglcontextrestored', this.changed);
   }
 
   resize(width_px: number, height_px: number): void {
@@ -95,33 +124,34 @@ export class SceneView {
     this.updateView();
   }
 
-  recolor(palette: Palette): void {
-    this.palette = palette;
-    this.paints.recolor(palette);
-    if (this.setting) this.show(this.setting.scene);
-    this.request();
+  recolor(colours: Colours): void {
+    this.colours = colours;
+    this.paints.recolor(colours.palette);
+    this.arm.recolor(colours.palette['ink-2']);
+    this.light.recolor(colours.isDark);
+    this.frames.request();
   }
 
   /** Sets up everything that depends on the scene. */
   show(scene: SceneMessage): void {
     this.remove(this.setting?.group);
     const group = new Group();
-    const { paints, palette } = this;
+    const { paints } = this;
     paints.clipTo(scene.workspace);
     const hasArm = scene.positioner === 'arm';
-    const table = new Table(paints, palette, scene);
+    const table = new Table(paints, scene);
     const tool = new Tool(
       paints,
       scene.parameters.block_orientation,
       hasArm ? undefined : scene.workspace,
     );
-    const marks = new Marks(paints, scene, this.layers);
+    const marks = new Marks(paints, scene, this.options.layers);
     const bead = new Bead(paints, scene.bead_radius_m);
     group.add(table.group, tool.group, marks.group, bead.group);
     this.world.add(group);
     this.setting = { scene, group, table, tool, marks, bead };
     this.light.shineOn(scene.workspace);
-    this.orbit.lookAt(scene.workspace);
+    this.orbit.lookAt(scene.workspace, hasArm);
     this.place();
   }
 
@@ -134,16 +164,17 @@ export class SceneView {
       this.floor = new Floor(picture, this.paints);
       this.world.add(this.floor.group);
     }
-    this.request();
+    this.frames.request();
   }
 
   /** Replaces the pictures under the tool. */
   hang(pictures: readonly UnderTool[]): void {
     for (const sheet of [...this.underTool.children]) this.remove(sheet);
-    const sheets = pictures.map((picture) => underTool(picture, this.palette, this.paints));
+    const { palette } = this.colours;
+    const sheets = pictures.map((picture) => underTool(picture, palette, this.paints));
     if (sheets.length > 0) this.underTool.add(...sheets);
     this.place();
-    this.request();
+    this.frames.request();
   }
 
   update(now: Now): void {
@@ -152,11 +183,12 @@ export class SceneView {
   }
 
   dispose(): void {
-    if (this.frame !== undefined) cancelAnimationFrame(this.frame);
-    this.canvas.removeEventListener('webglcontextrestored', this.request);
+    this.frames.stop();
+    this.canvas.removeEventListener('webglcontextrestored', this.changed);
     dispose(this.world);
     this.light.dispose();
     this.paints.dispose();
+    this.arm.dispose();
     this.renderer.dispose();
     // A browser has few contexts and frees unused ones late.
     this.renderer.forceContextLoss();
@@ -182,22 +214,42 @@ export class SceneView {
     bead.place(state);
     bead.canGrab(now.nearBead || pull !== undefined);
     bead.pull(pull);
-    this.request();
+    this.changed();
   }
 
   private updateView(): void {
     const { view, pxFromTable } = this.orbit.view();
     this.canvas.dataset.pxFromTable = pxFromTable.join(',');
-    this.onView(view);
-    this.request();
+    this.options.onView(view);
+    this.frames.request();
   }
 
-  private readonly request = (): void => {
-    this.frame ??= requestAnimationFrame(() => {
-      this.frame = undefined;
-      this.draw();
-    });
+  /** Something has moved that casts a shadow. */
+  private readonly changed = (): void => {
+    this.renderer.shadowMap.needsUpdate = true;
+    this.frames.request();
   };
+
+  /** Draws the next frame. Returns whether something moves on its own. */
+  private advance(elapsed_ms: number): boolean {
+    const flies = this.orbit.advance(elapsed_ms);
+    const fades = this.fade(elapsed_ms);
+    this.draw();
+    return flies || fades;
+  }
+
+  /** Links that cover the bead or the goal become transparent. */
+  private fade(elapsed_ms: number): boolean {
+    const { arm, now, options, orbit, paints } = this;
+    if (!now) return false;
+    const { bead_m, goal_m } = now.state;
+    const covered = {
+      eye: orbit.camera.position,
+      places: [bead_m, ...(goal_m ? [goal_m] : [])].map((at) => new Vector3(...at)),
+      ringPerM: RING_PX * paints.perPx(orbit.camera),
+    };
+    return arm.fade(covered, elapsed_ms, options.wantsLessMotion(), orbit.hiding());
+  }
 
   /** Draws a frame now, if there is something to draw. */
   readonly draw = (wishedRatio = window.devicePixelRatio): HTMLCanvasElement | undefined => {
@@ -205,7 +257,6 @@ export class SceneView {
     if (!setting || !now) return undefined;
     const ratio = Math.min(MAX_PIXEL_RATIO, wishedRatio);
     if (renderer.getPixelRatio() !== ratio) renderer.setPixelRatio(ratio);
-    this.paints.fade(HIDING, orbit.hiding());
     setting.bead.fit(orbit.camera);
     renderer.render(this.world, orbit.camera);
     return this.canvas;

@@ -1,4 +1,4 @@
-// Pictures that lie on the table: the floor with the base map, the numbers of the axes around it, and those under the tool.
+// Pictures that lie on the table: the floor with the base map, and those under the tool.
 
 import {
   CanvasTexture,
@@ -8,26 +8,16 @@ import {
   MeshBasicMaterial,
   PlaneGeometry,
   SRGBColorSpace,
-  ShadowMaterial,
-  type Material,
   type MeshBasicMaterialParameters,
 } from 'three';
-import type { Rect } from '../net/protocol.gen';
-import { numbersPicture, type FloorPicture } from '../plan/floorPicture';
+import type { FloorPicture } from '../plan/floorPicture';
 import type { UnderTool } from '../plan/layer';
 import { ORDER, type Paints } from './paints';
 import type { Palette } from '../ui/palette';
 
-/** Height of floor layers over the floor, so that they do not flicker. */
-const HAZE_UP_M = 1e-4;
+/** Heights over the floor, so that nothing flickers. */
 const SHADOW_UP_M = 3e-4;
 const UNDER_TOOL_UP_M = 4e-4;
-/** The numbers are on the table, a little below the floor. */
-const NUMBERS_UP_M = -2e-4;
-const SHADOW_OPACITY = 0.4;
-/** A pure white or black floor would show no light or shadow. */
-const HAZE_OPACITY = 0.09;
-const ANISOTROPY = 8;
 const UNDER_TOOL_PX = 512;
 
 /** A sheet on the table with the size of its picture's area. */
@@ -62,38 +52,17 @@ export class Floor {
     // The picture changes with every camera image, so mipmaps would cost too much.
     texture.generateMipmaps = false;
     texture.minFilter = LinearFilter;
-    const over = (material: Material, up_m: number): Mesh => {
-      const layer = new Mesh(sheet.geometry, material);
-      layer.position.copy(sheet.position).setZ(up_m);
-      return layer;
-    };
-    const haze = over(paints.flat('ink-3', { opacity: HAZE_OPACITY }), HAZE_UP_M);
-    const shadow = over(
-      new ShadowMaterial({ opacity: SHADOW_OPACITY, depthWrite: false }),
-      SHADOW_UP_M,
-    );
-    shadow.renderOrder = 1;
+    const shadow = new Mesh(sheet.geometry, paints.shadow());
+    shadow.position.copy(sheet.position).setZ(SHADOW_UP_M);
     shadow.receiveShadow = true;
     this.group.renderOrder = ORDER.floor;
-    this.group.add(sheet, haze, shadow);
+    this.group.add(sheet, shadow);
   }
 
   /** Call this when the picture has changed. */
   refresh(): void {
     this.texture.needsUpdate = true;
   }
-}
-
-export function axisNumbers(palette: Palette, workspace: Rect): Group {
-  const { sheet, texture } = lay(numbersPicture(workspace, palette), {
-    transparent: true,
-    depthWrite: false,
-  });
-  texture.anisotropy = ANISOTROPY;
-  sheet.position.z = NUMBERS_UP_M;
-  const group = new Group().add(sheet);
-  group.renderOrder = ORDER.floor;
-  return group;
 }
 
 /** A layer's picture around the origin, like in the plan view. */

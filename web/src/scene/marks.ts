@@ -3,7 +3,8 @@
 import { CircleGeometry, Group, Mesh, type Object3D } from 'three';
 import type { History } from '../lab/history';
 import { GOAL_RADIUS_M, type SceneMessage, type StateMessage } from '../net/protocol.gen';
-import { ORDER, type PaintName, type Paints, type Stroke } from './paints';
+import { startOf } from '../plan/paint';
+import { ORDER, type PaintName, type Paints } from './paints';
 import type { LoadedLayer, SceneObject } from './sceneLayer';
 import { Strokes } from './strokes';
 import type { Vec2 } from '../lab/geometry';
@@ -15,10 +16,12 @@ const CURSOR_UP_M = 2e-3;
 const CURSOR_M = [0.004, 0.014] as const;
 const TRACKED_M = 0.005;
 const CROSS_M = 0.006;
+const START_M = 0.005;
 
 /** Four lines around a free middle. */
 function crosshair(paints: Paints): Strokes {
-  const lines = new Strokes(paints, 'accent', 4, { width_px: 2, through: true });
+  const style = { width_px: 2, through: true, isCased: true };
+  const lines = new Strokes(paints, 'accent', 4, style);
   const [near, far] = CURSOR_M;
   for (const side of [-1, 1]) {
     lines.move(side * near, 0, 0).line(side * far, 0, 0);
@@ -30,6 +33,7 @@ function crosshair(paints: Paints): Strokes {
 export class Marks {
   readonly group = new Group();
   private readonly goal = new Group();
+  private readonly start: Object3D;
   private readonly objects: readonly (SceneObject & { readonly id: string })[];
   private readonly tracked: Object3D;
   private readonly cursor: Object3D;
@@ -39,31 +43,37 @@ export class Marks {
   private readonly plumb: Object3D;
   private readonly steering: Strokes;
 
-  constructor(paints: Paints, scene: SceneMessage, layers: readonly LoadedLayer[]) {
-    const strokes = (name: PaintName, capacity: number, look: Omit<Stroke, 'through'>): Strokes =>
-      new Strokes(paints, name, capacity, { ...look, through: true });
+  constructor(
+    paints: Paints,
+    private readonly scene: SceneMessage,
+    layers: readonly LoadedLayer[],
+  ) {
+    const strokes = (name: PaintName, capacity: number, width_px: number): Strokes =>
+      new Strokes(paints, name, capacity, { width_px, through: true, isCased: true });
     this.objects = layers.map(({ id, create }) => ({ id, ...create(paints, scene) }));
-    const tracked = strokes('ink', 2, { width_px: 1, opacity: 0.8 });
+    const tracked = strokes('magnet', 2, 1);
     this.tracked = tracked.cross(0, 0, 0, TRACKED_M).done().object;
     this.cursor = crosshair(paints).object;
-    this.steering = strokes('you', 25, { width_px: 2 });
+    this.steering = strokes('m-you', 25, 2);
     const plumb = new Strokes(paints, 'magnet', 1, { width_px: 1.25, opacity: 0.8 });
     this.plumb = plumb.move(0, 0, 0).line(0, 0, 1).done().object;
-    const spot = strokes('magnet', 24, { width_px: 1.5, opacity: 0.9 });
+    const spot = strokes('magnet', 24, 1.5);
     this.spot = spot.circle(0, 0, 0, CROSS_M, 24).done().object;
 
-    const ring = strokes('goal', 66, { width_px: 2.5 });
+    this.start = strokes('m-ink', 24, 2).circle(0, 0, 0, START_M, 24).done().object;
+
+    const ring = strokes('m-goal', 66, 2.5);
     ring.circle(0, 0, 0, GOAL_RADIUS_M).cross(0, 0, 0, CROSS_M).done();
     const disc = new Mesh(
       new CircleGeometry(GOAL_RADIUS_M, 48),
-      paints.flat('goal', { opacity: 0.2, through: true }),
+      paints.flat('m-goal', { opacity: 0.16, through: true }),
     );
     this.goal.add(disc, ring.object);
     const air = new Group();
     air.renderOrder = ORDER.air;
     air.add(this.plumb);
     this.group.renderOrder = ORDER.marks;
-    this.group.add(this.goal, air, ...this.objects.map(({ object }) => object));
+    this.group.add(this.start, this.goal, air, ...this.objects.map(({ object }) => object));
     this.group.add(this.tracked, this.cursor, this.spot, this.steering.object);
   }
 
@@ -74,6 +84,9 @@ export class Marks {
       one.object.visible = layers.has(one.id);
       if (one.object.visible) one.place(state, history);
     }
+    const start = startOf(this.scene, history);
+    this.start.visible = start !== undefined;
+    if (start) this.start.position.set(...start, TOOL_UP_M);
     this.goal.visible = state.goal_m !== null;
     if (state.goal_m) this.goal.position.set(state.goal_m[0], state.goal_m[1], GOAL_UP_M);
     this.tracked.position.set(...state.bead_tracked_m, TOOL_UP_M);

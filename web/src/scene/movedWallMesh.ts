@@ -10,16 +10,16 @@ import {
   Mesh,
 } from 'three';
 import type { MovedWalls } from '../lab/movedWalls';
-import { WALL_HEIGHT_M } from '../net/protocol.gen';
 import type { Paints } from './paints';
+import { BEVEL_M, TRAY_UP_M } from './tray';
 import { WallEdges } from './wallEdges';
 
 const CORNERS = 4;
 const TRIANGLES = [0, 1, 2, 0, 2, 3] as const;
-/** Over the wall at rest, so that the floor does not show between the two. */
-const OVERLAP_M = 8e-4;
+/** Over the bevel of the wall at rest, so that the floor does not show between the two. */
+const OVERLAP_M = BEVEL_M + 3e-4;
 /** Height of sides below a top, which would otherwise flicker through it. */
-const COVERED_M = WALL_HEIGHT_M - 8e-4;
+const COVERED_M = TRAY_UP_M - 8e-4;
 
 const dynamic = (numbers: Float32Array): BufferAttribute =>
   new BufferAttribute(numbers, 3).setUsage(DynamicDrawUsage);
@@ -84,7 +84,7 @@ export class MovedWallMesh {
       }
     }
     for (let end = 0; end < edges.count; end += 2) {
-      this.addSide(edges.ends, 3, end, end + 1, WALL_HEIGHT_M);
+      this.addSide(edges.ends, 3, end, end + 1, TRAY_UP_M);
     }
     send(this.positions, this.corners);
     send(this.normals, this.corners);
@@ -98,8 +98,8 @@ export class MovedWallMesh {
     const { point_m } = this.of;
     this.addFoot(from);
     this.addFoot(to);
-    this.add(point_m[2 * to] ?? 0, point_m[2 * to + 1] ?? 0, WALL_HEIGHT_M, 0, 0, 1);
-    this.add(point_m[2 * from] ?? 0, point_m[2 * from + 1] ?? 0, WALL_HEIGHT_M, 0, 0, 1);
+    this.add(point_m[2 * to] ?? 0, point_m[2 * to + 1] ?? 0, TRAY_UP_M, 0, 0, 1);
+    this.add(point_m[2 * from] ?? 0, point_m[2 * from + 1] ?? 0, TRAY_UP_M, 0, 0, 1);
   }
 
   private addFoot(point: number): void {
@@ -107,7 +107,7 @@ export class MovedWallMesh {
     const vertex = vertexOf[point] ?? 0;
     const x = (foot_m[2 * vertex] ?? 0) - (normal[2 * point] ?? 0) * OVERLAP_M;
     const y = (foot_m[2 * vertex + 1] ?? 0) - (normal[2 * point + 1] ?? 0) * OVERLAP_M;
-    this.add(x, y, WALL_HEIGHT_M, 0, 0, 1);
+    this.add(x, y, TRAY_UP_M, 0, 0, 1);
   }
 
   /** The free space is on its left. */

@@ -1,6 +1,7 @@
 import { expect, test } from 'vitest';
 import type { Vec2 } from '../lab/geometry';
 import { OrbitCamera } from './orbitCamera';
+import { fitView, tableViewOf } from '../plan/transform';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 const [WIDTH, HEIGHT] = [800, 400];
@@ -79,4 +80,77 @@ test('a viewpoint follows the size of the picture until the view is moved', () =
   expect(view.orbit.key('Home')).toBe(true);
   expect(view.orbit.key('x')).toBe(false);
   expect(view.changes()).toBeGreaterThan(3);
+});
+
+const PLAN = tableViewOf(
+  fitView(WORKSPACE, WIDTH, HEIGHT, { left: 46, right: 12, top: 12, bottom: 24 }),
+);
+const CORNERS: readonly Vec2[] = [
+  [-0.3, -0.54],
+  [0.28, -0.21],
+];
+
+function fromPlan(jumps: boolean) {
+  const orbit = new OrbitCamera(
+    () => undefined,
+    0,
+    () => jumps,
+    PLAN,
+  );
+  orbit.lookAt(WORKSPACE);
+  orbit.resize(WIDTH, HEIGHT);
+  const isPlan = (): boolean =>
+    CORNERS.every((corner) => {
+      const [x, y] = orbit.view().view.toPx(corner) ?? [NaN, NaN];
+      const [planX, planY] = PLAN.toPx(corner) ?? [NaN, NaN];
+      return Math.hypot(x - planX, y - planY) < 0.5;
+    });
+  const home = opened();
+  const isHome = (): boolean =>
+    CORNERS.every((corner) => {
+      const [x, y] = orbit.view().view.toPx(corner) ?? [NaN, NaN];
+      const [homeX, homeY] = home.at(corner);
+      return Math.hypot(x - homeX, y - homeY) < 0.5;
+    });
+  return { orbit, isPlan, isHome };
+}
+
+test('the camera flies from the picture of the plan view to the home viewpoint, and back', () => {
+  const { orbit, isPlan, isHome } = fromPlan(false);
+  expect(isPlan()).toBe(true);
+  expect(orbit.advance(160)).toBe(true);
+  expect(isPlan() || isHome()).toBe(false);
+  expect(orbit.advance(160)).toBe(false);
+  expect(isHome()).toBe(true);
+  expect(orbit.viewpoint).toBe('Home');
+
+  let landings = 0;
+  orbit.leave(PLAN, () => {
+    landings += 1;
+  });
+  expect(orbit.advance(310)).toBe(true);
+  expect(landings).toBe(0);
+  expect(orbit.advance(10)).toBe(false);
+  expect(landings).toBe(1);
+  expect(isPlan()).toBe(true);
+});
+
+test('the camera jumps where less motion is wanted', () => {
+  const { orbit, isPlan, isHome } = fromPlan(true);
+  expect(isHome()).toBe(true);
+  expect(orbit.advance(16)).toBe(false);
+  let landings = 0;
+  orbit.leave(PLAN, () => {
+    landings += 1;
+  });
+  expect(landings).toBe(1);
+  expect(isPlan()).toBe(true);
+});
+
+test('the user ends a flight by moving the view', () => {
+  const { orbit } = fromPlan(false);
+  orbit.advance(100);
+  orbit.move(drag([0, 0], [20, 10], 'turn'));
+  expect(orbit.advance(16)).toBe(false);
+  expect(orbit.viewpoint).toBeUndefined();
 });

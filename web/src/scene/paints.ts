@@ -4,13 +4,13 @@ import {
   DoubleSide,
   LineBasicMaterial,
   MeshBasicMaterial,
-  MeshPhongMaterial,
+  MeshStandardMaterial,
   Plane,
-  SpriteMaterial,
+  ShadowMaterial,
   Vector3,
   type Color,
   type Material,
-  type Texture,
+  type PerspectiveCamera,
 } from 'three';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import type { Rect } from '../net/protocol.gen';
@@ -22,12 +22,17 @@ export type PaintName = keyof Palette;
  * Drawing order. Marks on the floor are visible through the walls, but not through objects over them: marks ignore
  * depth, and solids are drawn after them.
  */
-export const ORDER = { floor: -1, marks: 0, solids: 1, air: 2 } as const;
+export const ORDER = { floor: -1, marks: 0, bead: 1, solids: 2, air: 3 } as const;
 
-/** Like plastic and painted metal, not like a mirror. */
-const GLOSS = { shininess: 36, specular: 0x2a2a2a };
+/** Of tissue, and of painted metal. */
+const ROUGHNESS = { wall: 0.42, other: 0.38 } as const;
+/** A dark tone of the arm's joints. */
+const SHADOW_TINT = 0.2;
+const SHADOW_OPACITY = 0.28;
 /** Share of the own colour that glowing objects emit. */
-const GLOW = 0.45;
+const GLOW = 0.3;
+/** Of the casing of a mark, at each side. */
+const CASE_PX = 1.25;
 
 /** In a higher view, bold marks are larger than usual. */
 const BOLD_HEIGHT_PX = 250;
@@ -51,6 +56,8 @@ export interface Sheet {
 
 export interface Stroke extends Sheet {
   readonly width_px: number;
+  /** Has a light line below it, so that it shows on floor and wall. */
+  readonly isCased?: boolean;
 }
 
 export class Paints {
@@ -76,26 +83,37 @@ export class Paints {
     return this.isBold ? Math.max(1, this.height_px / BOLD_HEIGHT_PX) : 1;
   }
 
+  /** Size of a pixel of the view at the distance 1. */
+  perPx({ fov }: PerspectiveCamera): number {
+    return (2 * Math.tan((fov * Math.PI) / 360)) / this.height_px;
+  }
+
   fit(height_px: number): void {
     this.height_px = height_px;
     for (const paint of this.paints.values()) this.apply(paint);
   }
 
   /** For static parts, lit. */
-  lit(name: PaintName): MeshPhongMaterial {
-    return this.shared(`lit ${name}`, name, () => new MeshPhongMaterial(GLOSS));
+  lit(name: PaintName): MeshStandardMaterial {
+    const roughness = name === 'wall' ? ROUGHNESS.wall : ROUGHNESS.other;
+    return this.shared(`lit ${name}`, name, () => new MeshStandardMaterial({ roughness }));
   }
 
-  /** For moving parts over the table: drawn after the marks, with variable opacity. */
-  over(name: PaintName): MeshPhongMaterial {
-    const look = { ...GLOSS, transparent: true };
-    return this.shared(`over ${name}`, name, () => new MeshPhongMaterial(look));
+  /** For moving parts over the table: drawn after the marks. Parts of one `set` have one opacity. */
+  over(name: PaintName, set = ''): MeshStandardMaterial {
+    const look = { roughness: ROUGHNESS.other, transparent: true };
+    return this.shared(`over ${set} ${name}`, name, () => new MeshStandardMaterial(look));
   }
 
-  /** For moving parts, glowing. */
-  glowing(name: PaintName): MeshPhongMaterial {
-    const look = { ...GLOSS, transparent: true, emissiveIntensity: GLOW };
-    return this.shared(`glowing ${name}`, name, () => new MeshPhongMaterial(look));
+  /** For balls, glowing. What hides them must be nearer than the floor's walls. */
+  glowing(name: PaintName): MeshStandardMaterial {
+    const look = { roughness: 0.3, transparent: true, emissiveIntensity: GLOW };
+    return this.shared(`glowing ${name}`, name, () => new MeshStandardMaterial(look));
+  }
+
+  /** For flat pictures and the table: nothing but the shadow on it. */
+  shadow(): ShadowMaterial {
+    return this.shared('shadow', 'arm-seam', () => new ShadowMaterial({ depthWrite: false }));
   }
 
   /** For drawings: without light and shadow, visible from both sides. */
@@ -111,24 +129,22 @@ export class Paints {
     return this.shared(key, name, () => new LineMaterial(look), stroke.width_px);
   }
 
+  /** The light line below a stroke. */
+  casing(stroke: Stroke): LineMaterial {
+    return this.stroke('case', { ...stroke, width_px: stroke.width_px + 2 * CASE_PX });
+  }
+
   /** Lines of one pixel. */
   edge(name: PaintName): LineBasicMaterial {
     return this.shared(`edge ${name}`, name, () => new LineBasicMaterial());
   }
 
-  /** A picture that faces the camera, visible also behind the arm and the walls. */
-  sprite(name: PaintName, picture: () => Texture): SpriteMaterial {
-    const look = { sizeAttenuation: false, ...this.sheet({ through: true }) };
-    return this.shared(
-      `sprite ${name}`,
-      name,
-      () => new SpriteMaterial({ ...look, map: picture() }),
-    );
-  }
-
-  /** Sets the opacity of `over(name)`, from 0 to 1. */
-  fade(names: readonly PaintName[], opacity: number): void {
-    for (const name of names) this.over(name).opacity = opacity;
+  /** Sets the opacity of all of `over(…, set)`, from 0 to 1. The magnet stays as it is. */
+  fade(set: string, opacity: number): void {
+    for (const [key, { name, material }] of this.paints) {
+      const isMagnet = name === 'north' || name === 'south';
+      if (key.startsWith(`over ${set} `) && !isMagnet) material.opacity = opacity;
+    }
   }
 
   /** Clipping planes for `Sheet.clipped`. */
@@ -151,10 +167,7 @@ export class Paints {
   }
 
   dispose(): void {
-    for (const { material } of this.paints.values()) {
-      if (material instanceof SpriteMaterial) material.map?.dispose();
-      material.dispose();
-    }
+    for (const { material } of this.paints.values()) material.dispose();
   }
 
   private sheet({ opacity = 1, through = false, clipped = false }: Sheet) {
@@ -186,10 +199,14 @@ export class Paints {
 
   private apply({ name, material, width_px }: Paint): void {
     material.color.set(this.palette[name]);
+    if (material instanceof ShadowMaterial) {
+      material.color.multiplyScalar(SHADOW_TINT);
+      material.opacity = SHADOW_OPACITY;
+    }
     if (material instanceof LineMaterial && width_px !== undefined) {
       material.linewidth = width_px * this.markScale;
     }
-    if (material instanceof MeshPhongMaterial && material.emissiveIntensity === GLOW) {
+    if (material instanceof MeshStandardMaterial && material.emissiveIntensity === GLOW) {
       material.emissive.copy(material.color);
     }
   }

@@ -18,7 +18,7 @@ import {
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 import { ORDER, type PaintName, type Paints } from './paints';
 
-const ROUND = 28;
+const ROUND = 40;
 /** Rows of a lid's dome. */
 const DOME = 6;
 
@@ -85,11 +85,12 @@ export class Solids {
     return this;
   }
 
-  group(paints: Paints): Group {
+  /** The parts of one `set` have one opacity. */
+  group(paints: Paints, set?: string): Group {
     const group = new Group();
     group.renderOrder = ORDER.solids;
     for (const [name, pieces] of this.pieces) {
-      const mesh = new Mesh(mergeGeometries(pieces), paints.over(name));
+      const mesh = new Mesh(mergeGeometries(pieces), paints.over(name, set));
       for (const piece of pieces) piece.dispose();
       mesh.castShadow = true;
       mesh.receiveShadow = true;

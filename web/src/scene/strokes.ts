@@ -1,6 +1,6 @@
 // 3-D lines with a width in pixels. WebGL's own lines are always one pixel wide.
 
-import { InstancedInterleavedBuffer, InterleavedBufferAttribute } from 'three';
+import { InstancedInterleavedBuffer, InterleavedBufferAttribute, Object3D } from 'three';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
 import type { PaintName, Paints, Stroke } from './paints';
@@ -10,7 +10,8 @@ const NUMBERS = 6;
 
 /** A drawing of at most `capacity` segments that is overwritten in place. */
 export class Strokes {
-  readonly object: LineSegments2;
+  readonly object = new Object3D();
+  private readonly geometry = new LineSegmentsGeometry();
   private readonly ends: Float32Array;
   private readonly buffer: InstancedInterleavedBuffer;
   private count = 0;
@@ -24,13 +25,22 @@ export class Strokes {
   ) {
     this.ends = new Float32Array(NUMBERS * capacity);
     this.buffer = new InstancedInterleavedBuffer(this.ends, NUMBERS, 1);
-    const geometry = new LineSegmentsGeometry();
+    const { geometry } = this;
     geometry.setAttribute('instanceStart', new InterleavedBufferAttribute(this.buffer, 3, 0));
     geometry.setAttribute('instanceEnd', new InterleavedBufferAttribute(this.buffer, 3, 3));
     geometry.instanceCount = 0;
-    this.object = new LineSegments2(geometry, paints.stroke(name, stroke));
-    // Otherwise every change would need new bounds.
-    this.object.frustumCulled = false;
+    const materials = [
+      ...(stroke.isCased ? [paints.casing(stroke)] : []),
+      paints.stroke(name, stroke),
+    ];
+    materials.forEach((material, i) => {
+      const lines = new LineSegments2(geometry, material);
+      // Otherwise every change would need new bounds.
+      lines.frustumCulled = false;
+      // All casings lie below all lines.
+      lines.renderOrder = i === materials.length - 1 && name !== 'case' ? 1 : 0;
+      this.object.add(lines);
+    });
   }
 
   clear(): this {
@@ -76,7 +86,7 @@ export class Strokes {
   /** Shows what was drawn since `clear`. */
   done(): this {
     this.buffer.needsUpdate = true;
-    this.object.geometry.instanceCount = this.count;
+    this.geometry.instanceCount = this.count;
     this.object.visible = this.count > 0;
     return this;
   }

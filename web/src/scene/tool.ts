@@ -3,10 +3,9 @@
 import { Group } from 'three';
 import { BLOCKS } from '../net/arm.gen';
 import type { Orientation, Rect } from '../net/protocol.gen';
-import { floorMargins } from '../plan/floorPicture';
 import type { Paints } from './paints';
 import { type Point, Solids } from './solids';
-import { EDGE_M } from './table';
+import { RIM_M } from './tray';
 
 /** The halves at either pole, around the block's own middle above the tool point. */
 function halvesOf({ size_m: [x, y, z], along }: (typeof BLOCKS)[Orientation]) {
@@ -46,6 +45,8 @@ function fingers(solids: Solids, [x, y, z]: Point): void {
 }
 
 const RAIL_M = 0.012;
+/** From the workspace to the middle of a rail. */
+const BESIDE_M = RIM_M + 0.018;
 /** From the table to the middle of the portal's beam. */
 const BEAM_UP_M = 0.235;
 /** Upper end of the column above the tool point. */
@@ -60,11 +61,7 @@ class Portal {
 
   constructor(paints: Paints, workspace: Rect, block_m: number) {
     const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
-    const margins = floorMargins(workspace);
-    const rails_m = [
-      y_min_m - margins.bottom - EDGE_M / 2,
-      y_max_m + margins.top + EDGE_M / 2,
-    ] as const;
+    const rails_m = [y_min_m - BESIDE_M, y_max_m + BESIDE_M] as const;
     const middle_m = (rails_m[0] + rails_m[1]) / 2;
     const span_m = rails_m[1] - rails_m[0];
     const length_m = x_max_m - x_min_m + 0.03;

@@ -1,66 +1,113 @@
 // The viewpoints of the scene. Pure except for three's vectors.
 
 import { Vector3 } from 'three';
-import type { Rect } from '../net/protocol.gen';
-import { floorMargins } from '../plan/floorPicture';
 import { cornersOf } from '../lab/geometry';
+import type { Rect } from '../net/protocol.gen';
 import { grown } from '../plan/transform';
+import { type Ball, reachOf } from './reach';
 import type { Point } from './solids';
+import { RIM_M, TRAY_UP_M } from './tray';
 
 export const VIEWPOINTS = ['Home', 'Top', 'Front', 'Side'] as const;
 export type ViewpointName = (typeof VIEWPOINTS)[number];
 
-export interface Viewpoint {
-  /** Point in the middle of the picture. */
+/** What must be in the picture. */
+export interface Stage {
+  readonly tray: readonly Ball[];
+  /** The arm in all its poses, or the portal. */
+  readonly holder: readonly Ball[];
+}
+
+/** A camera: the point in the middle of its picture, and where it is, seen from there. */
+export interface Seat {
   readonly target_m: Point;
-  /** Direction from the target to the camera. */
-  readonly toCamera: Point;
-  /** Box that must be in the picture. */
-  readonly bounds_m: readonly Point[];
+  readonly toCamera_m: Point;
 }
 
-/** Exactly from above the picture would have no defined upper side. */
-const ALMOST = 1e-3;
-/** Factor of the picture's size over its bounds. */
-const ROOM = 1.06;
-/** Height of the bounds over the table, except from above: the magnet and its holder. */
-const SHOWN_UP_M = 0.26;
-
-const cornersAt = (rect: Rect, z_m: number): Point[] =>
-  cornersOf(rect).map(([x_m, y_m]) => [x_m, y_m, z_m]);
-
-export function viewpointOf(name: ViewpointName, workspace: Rect): Viewpoint {
-  const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
-  const [x, y] = [(x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2];
-  const low = cornersAt(grown(workspace, { ...floorMargins(workspace), top: 0 }), 0);
-  const inset = (x_max_m - x_min_m) / 5;
-  const narrow = { ...workspace, x_min_m: x_min_m + inset, x_max_m: x_max_m - inset };
-  const both = [...low, ...cornersAt(narrow, SHOWN_UP_M)];
-  switch (name) {
-    case 'Home':
-      return { target_m: [x, y + 0.02, 0.06], toCamera: [0.36, -1, 0.85], bounds_m: both };
-    case 'Top':
-      return { target_m: [x, y, 0], toCamera: [0, -ALMOST, 1], bounds_m: low };
-    case 'Front':
-      return { target_m: [x, y, SHOWN_UP_M / 2], toCamera: [0, -1, 0.22], bounds_m: both };
-    case 'Side':
-      return { target_m: [x, y, SHOWN_UP_M / 2], toCamera: [1, 0, 0.22], bounds_m: both };
-  }
+/** The picture that a stage is fitted into. */
+export interface Lens {
+  /** Of the vertical field of view's half. */
+  readonly tangent: number;
+  readonly aspect: number;
+  /** Shift of the picture to the right, as a share of its width. */
+  readonly shift: number;
 }
 
-/** Distance from the target to the camera at which all of `bounds_m` is in the picture, with a margin. */
-export function distanceFor(viewpoint: Viewpoint, fieldOfView_rad: number, aspect: number): number {
-  const back = new Vector3(...viewpoint.toCamera).normalize();
+/** Factor of the picture's size over what is in it. */
+const ROOM = 1.04;
+/** Upper end of a portal over its lowest tool point. */
+const PORTAL_UP_M = 0.4;
+/** From the workspace to the outer side of a portal's rails. */
+const PORTAL_BESIDE_M = 0.045;
+const DEGREE = Math.PI / 180;
+
+/** A direction to the camera: from the front to the left, and above the table. */
+function toward(left_deg: number, up_deg: number): Point {
+  const [left, up] = [left_deg * DEGREE, up_deg * DEGREE];
+  return [-Math.sin(left) * Math.cos(up), -Math.cos(left) * Math.cos(up), Math.sin(up)];
+}
+
+const DIRECTIONS: Record<ViewpointName, Point> = {
+  Home: toward(13, 48),
+  // Exactly from above the picture would have no defined upper side.
+  Top: toward(0, 89.95),
+  Front: toward(0, 15),
+  Side: toward(-90, 15),
+};
+
+const pointsAt = (rect: Rect, z_m: number): Ball[] =>
+  cornersOf(rect).map(([x_m, y_m]) => ({ at: new Vector3(x_m, y_m, z_m), radius_m: 0 }));
+const widened = (rect: Rect, by_m: number): Rect =>
+  grown(rect, { left: by_m, right: by_m, top: by_m, bottom: by_m });
+
+export function stageOf(workspace: Rect, hasArm: boolean): Stage {
+  const tray = widened(workspace, RIM_M);
+  const rails = widened(workspace, PORTAL_BESIDE_M);
+  const portal = [...pointsAt(rails, 0), ...pointsAt(workspace, PORTAL_UP_M)];
+  return {
+    tray: [...pointsAt(tray, 0), ...pointsAt(tray, TRAY_UP_M)],
+    holder: hasArm ? reachOf(workspace) : portal,
+  };
+}
+
+/** Farthest that a stage reaches along the sides of a view cone with this tangent. */
+function reach(balls: readonly Ball[], side: Vector3, back: Vector3, tangent: number): number {
+  const cone = side.clone().addScaledVector(back, tangent);
+  const slant = cone.length();
+  return balls.reduce(
+    (most, { at, radius_m }) => Math.max(most, at.dot(cone) + radius_m * slant),
+    -Infinity,
+  );
+}
+
+/** The nearest camera in a direction that has the whole stage in its picture. */
+export function seatOf(name: ViewpointName, stage: Stage, { tangent, aspect, shift }: Lens): Seat {
+  const back = new Vector3(...DIRECTIONS[name]);
   const right = new Vector3(0, 0, 1).cross(back).normalize();
   const up = new Vector3().crossVectors(back, right);
-  const target = new Vector3(...viewpoint.target_m);
-  const tangent = Math.tan(fieldOfView_rad / 2) / ROOM;
-  const point = new Vector3();
-  return viewpoint.bounds_m.reduce((most, bound) => {
-    point.set(...bound).sub(target);
-    const aside = Math.max(Math.abs(point.dot(up)), Math.abs(point.dot(right)) / aspect);
-    return Math.max(most, point.dot(back) + aside / tangent);
-  }, 0);
+  const balls = name === 'Top' ? stage.tray : [...stage.tray, ...stage.holder];
+  const high = tangent / ROOM;
+  const wide = (tangent * aspect * (1 - 2 * Math.abs(shift))) / ROOM;
+  const spans = [
+    [right, wide],
+    [up, high],
+  ] as const;
+  // Per side: where the camera is across the view, and how far back.
+  const fits = spans.map(([side, slope]) => {
+    const [more, less] = [
+      reach(balls, side, back, slope),
+      reach(balls, side.clone().negate(), back, slope),
+    ];
+    return { side, at: (more - less) / 2, back: (more + less) / (2 * slope) };
+  });
+  const camera = back.clone().multiplyScalar(Math.max(...fits.map((fit) => fit.back)));
+  for (const { side, at } of fits) camera.addScaledVector(side, at);
+  // The target is on the view's axis, beside the middle of the tray.
+  const middle = stage.tray
+    .reduce((sum, { at }) => sum.add(at), new Vector3())
+    .divideScalar(stage.tray.length);
+  const toCamera = back.multiplyScalar(camera.clone().sub(middle).dot(back));
+  return { target_m: camera.sub(toCamera).toArray(), toCamera_m: toCamera.toArray() };
 }
 
 /** Table axis of an arrow key, seen from a camera at `azimuth_rad` about the vertical. */
@@ -74,9 +121,9 @@ export function turnedArrow(
 }
 
 /** Between these angles from the vertical the arm becomes transparent, because from above it would hide the table. */
-const FADED_RAD = 0.3;
-const SOLID_RAD = 0.62;
-const MIN_OPACITY = 0.16;
+const FADED_RAD = 0.2;
+const SOLID_RAD = 0.55;
+const MIN_OPACITY = 0.14;
 
 export function hidingAt(polar_rad: number): number {
   const share = Math.min(1, Math.max(0, (polar_rad - FADED_RAD) / (SOLID_RAD - FADED_RAD)));

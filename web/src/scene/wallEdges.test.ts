@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { MovedWalls } from '../lab/movedWalls';
 import { lumenOf } from '../lab/testing';
-import { WALL_HEIGHT_M } from '../net/protocol.gen';
+import { TRAY_UP_M } from './tray';
 import { WallEdges } from './wallEdges';
 
 const FAR = { at_m: [9, 9], radius_m: 0.0025 } as const;
@@ -36,7 +36,7 @@ describe('the edges of moved walls', () => {
   it('run around the room at the height of the walls', () => {
     const { ends, length_m } = edgesOf(0);
     expect(length_m).toBeCloseTo(0.4, 6);
-    for (const [, , z] of ends) expect(z).toBeCloseTo(WALL_HEIGHT_M, 6);
+    for (const [, , z] of ends) expect(z).toBeCloseTo(TRAY_UP_M, 6);
   });
 
   it('leave out what lies inside the walls', () => {

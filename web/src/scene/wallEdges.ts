@@ -1,7 +1,7 @@
 // The upper edges of moved walls: the outlines without the loops that lie inside the walls. Pure.
 
 import type { MovedWalls } from '../lab/movedWalls';
-import { WALL_HEIGHT_M } from '../net/protocol.gen';
+import { TRAY_UP_M } from './tray';
 
 /** A point that is less deep in a wall is on its edge. */
 const DEPTH_M = 5e-5;
@@ -106,7 +106,7 @@ export class WallEdges {
     const [x, y] = [point_m[2 * from] ?? 0, point_m[2 * from + 1] ?? 0];
     this.ends[3 * this.count] = x + share * ((point_m[2 * to] ?? 0) - x);
     this.ends[3 * this.count + 1] = y + share * ((point_m[2 * to + 1] ?? 0) - y);
-    this.ends[3 * this.count + 2] = WALL_HEIGHT_M;
+    this.ends[3 * this.count + 2] = TRAY_UP_M;
     this.count += 1;
   }
 }

@@ -7,8 +7,10 @@ import { type Point, triangles } from '../../scene/solids';
 import { Strokes } from '../../scene/strokes';
 
 const UP_M = 8e-4;
+/** Length of a bracket, as a share of its side. */
+const BRACKET = 0.16;
 
-/** Lines from the camera to the visible area of the table. */
+/** Brackets around the visible area of the table, and lines from the camera to it. */
 export const sceneFrustum: CreateSceneObject = (paints, { parameters, camera_sees_m }) => {
   const eye: Point = [
     parameters.camera_offset_x_m,
@@ -21,22 +23,23 @@ export const sceneFrustum: CreateSceneObject = (paints, { parameters, camera_see
     corner,
     corners[(k + 1) % corners.length] ?? corner,
   ]);
-  const rays = new Strokes(paints, 'magnet', corners.length, { width_px: 1, opacity: 0.4 });
-  const foot = new Strokes(paints, 'magnet', corners.length, {
-    width_px: 1.5,
-    opacity: 0.55,
-    through: true,
-  });
+  const rays = new Strokes(paints, 'magnet', corners.length, { width_px: 1, opacity: 0.3 });
+  const style = { width_px: 2, through: true, isCased: true };
+  const foot = new Strokes(paints, 'magnet', 2 * corners.length, style);
   corners.forEach((corner, k) => {
     rays.move(...eye).line(...corner);
-    foot.move(...corner).line(...(corners[(k + 1) % corners.length] ?? corner));
+    const [x, y, z] = corner;
+    for (const side of [1, corners.length - 1]) {
+      const [toX, toY] = corners[(k + side) % corners.length] ?? corner;
+      foot.move(x, y, z).line(x + BRACKET * (toX - x), y + BRACKET * (toY - y), z);
+    }
   });
   rays.done();
   foot.done();
   // The lines are sorted by depth with the solids; the area on the floor is a mark.
   const air = new Group();
   air.renderOrder = ORDER.air;
-  air.add(new Mesh(triangles(sides), paints.flat('magnet', { opacity: 0.045 })), rays.object);
+  air.add(new Mesh(triangles(sides), paints.flat('magnet', { opacity: 0.03 })), rays.object);
   const object = new Group().add(air, foot.object);
   return {
     object,

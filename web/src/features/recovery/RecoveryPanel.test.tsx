@@ -110,7 +110,7 @@ it('forgets what was chosen when the map changes behind a closed tab', async () 
   const [isOpen, setOpen] = createSignal(true);
   show(() => (
     <Show when={isOpen()}>
-      <RecoveryPanel lab={lab} tools={document.createElement('div')} />
+      <RecoveryPanel lab={lab} />
     </Show>
   ));
   await page.getByLabelText('Recovery map', { exact: true }).selectOptions('recovery-1');
