@@ -60,6 +60,8 @@ export const LOOKS = {
 
 export type Controller = keyof typeof LOOKS;
 
+export const isController = (name: string): name is Controller => Object.hasOwn(LOOKS, name);
+
 /** The dash of a controller's line of a width. */
 export const dashOf = (controller: Controller, width_px: number): number[] =>
   LOOKS[controller].dash.map((part) => (part * width_px) / DASHED_PX);
