@@ -21,7 +21,7 @@ export function Band(props: {
   const newest = createMemo<Newest>(
     (before) => {
       const state = lab.state();
-      return state && (state.tick === state.newest_tick || !before) ? state : before;
+      return state && (state.tick >= state.newest_tick || !before) ? state : before;
     },
     undefined,
     { equals: (a, b) => a?.controller === b?.controller && a?.mode === b?.mode },

@@ -10,9 +10,6 @@ import { linesOf, type Part, partRange, rulesOf } from './parts';
 import { nearestIndex, type Sample } from './sample';
 import { timeTicks } from './ticks';
 
-const decimals = (value: number): number =>
-  String(Number(value.toFixed(3))).split('.')[1]?.length ?? 0;
-
 export function Lane(props: {
   part: Part;
   axis: TimeAxis;
@@ -24,7 +21,7 @@ export function Lane(props: {
   const times = (): Float64Array => props.sample?.columns.sim_time_s ?? new Float64Array();
   const lines = createMemo(() => linesOf(props.part, props.sample));
   const range = createMemo(() => partRange(props.part, lines(), props.threshold_m));
-  const end = (value: number): string => fixed(value, decimals(value));
+  const end = (value: number): string => fixed(value, Number.isInteger(value) ? 0 : 1);
   /** At the cursor, otherwise at the present time. */
   const marked = createMemo(() => {
     const { sample } = props;

@@ -105,8 +105,8 @@ export function PlotMenu(props: {
               </For>
             </select>
           </label>
-          <p class="hint">The figure has all plots and the path in the plane.</p>
-          <div class="buttons">
+          <div class="buttons" title="The figure with all plots and the path in the plane; CSV: the numbers">
+            Save
             <For each={FILES}>
               {(kind) => (
                 <SmallButton aria-label={`Save ${kind}`} onClick={() => void save(kind)}>

@@ -37,7 +37,7 @@ describe('a sample', () => {
 
   it('has the times of sub-controller 1 and of the disturbances', () => {
     const history = run(2000, (tick) => ({ mode: tick >= 500 && tick < 700 ? 1 : 2 }));
-    const sample = takeSample(history, ALL, 4, [
+    const sample = takeSample(history, { from_s: 0, to_s: 16 }, 4, [
       disturbanceAt(500),
       { ...disturbanceAt(600), kind: 'goal' },
       disturbanceAt(9000),

@@ -26,7 +26,7 @@ export interface Part {
   readonly threshold: boolean;
 }
 
-const POSITION = { unit: 'm', scale: 1, digits: 2, grain: 0.05, threshold: false };
+const POSITION = { unit: 'cm', scale: 100, digits: 0, grain: 5, threshold: false };
 const ERROR = { unit: 'cm', scale: 100, digits: 0, grain: 2 };
 
 export const PARTS: readonly Part[] = [
