@@ -10,6 +10,7 @@ import type { Events, Panels, Trial } from '../../lab/slices';
 
 /** Marks nearer than this share one. */
 const GAP_PX = 25;
+const LEFT_PX = 8;
 /** Number of marks that a key moves by. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
@@ -22,7 +23,8 @@ export function EventMarks(props: { lab: Trial & Events & Panels; axis: TimeAxis
   });
   const found = createMemo(() => {
     const { from_s, to_s } = axis.span();
-    const px = (time_s: number): number => width_px() * axis.share(time_s);
+    // The first one is not over the time.
+    const px = (time_s: number): number => Math.max(LEFT_PX, width_px() * axis.share(time_s));
     const held = lab.marks().filter(({ sim_time_s: at }) => at >= from_s && at <= to_s);
     return width_px() > 0 ? clusters(held, px, GAP_PX) : [];
   });
