@@ -4,11 +4,14 @@ import type { JSX } from 'solid-js';
 import { type CurveLine, dashesOf } from './curve';
 import './LineKey.css';
 
-export function LineKey(props: {
-  of: Pick<CurveLine, 'color' | 'isDashed'>;
-}): JSX.Element {
+export function LineKey(props: { of: Pick<CurveLine, 'color' | 'isDashed'> }): JSX.Element {
   return (
-    <svg class="line-key" viewBox="0 0 18 4" aria-hidden="true">
+    <svg
+      class="line-key"
+      viewBox="0 0 18 4"
+      preserveAspectRatio="xMinYMid slice"
+      aria-hidden="true"
+    >
       <path
         d="M1 2h16"
         style={{ stroke: `var(--${props.of.color})` }}

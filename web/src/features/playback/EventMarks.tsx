@@ -67,10 +67,7 @@ export function EventMarks(props: { lab: Trial & Events & Panels; axis: TimeAxis
               lab.showPanel('story');
             }}
           >
-            <Show
-              when={cluster().events.length > 1}
-              fallback={<Icon of={cluster().look.icon} />}
-            >
+            <Show when={cluster().events.length > 1} fallback={<Icon of={cluster().look.icon} />}>
               {cluster().events.length}
             </Show>
           </button>

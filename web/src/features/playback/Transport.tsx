@@ -62,13 +62,13 @@ export function Transport(props: { lab: Session & Trial & Notices }): JSX.Elemen
       </CommandButton>
       <div class="speed">
         <ServerSelect
-        label="Speed"
-        hideLabel
-        value={String(target())}
-        options={speeds()}
-        disabled={!lab.canOperate()}
-        onChoose={(value) => lab.send('playback', { type: 'set_speed', factor: Number(value) })}
-      />
+          label="Speed"
+          hideLabel
+          value={String(target())}
+          options={speeds()}
+          disabled={!lab.canOperate()}
+          onChoose={(value) => lab.send('playback', { type: 'set_speed', factor: Number(value) })}
+        />
         <Icon of={ChevronDown} />
       </div>
       <Achieved lab={lab} />

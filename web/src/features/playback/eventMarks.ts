@@ -9,7 +9,7 @@ import { EVENT_SYMBOLS, eventTitle } from '../../lab/eventStory';
 const MAX_TITLES = 6;
 const RANKS = new Map(EVENT_SYMBOLS.map(([kind], rank) => [kind, rank]));
 
-/** Of a mark for events of several kinds. */
+/** Of a mark for events of several colours. */
 const MIXED: EventLook = { icon: [], colour: 'ink-2' };
 
 export function isMarked(event: EventMessage): boolean {
@@ -29,13 +29,14 @@ export interface Cluster {
 function clusterOf(px: number, events: readonly EventMessage[], first: EventMessage): Cluster {
   const rank = (event: EventMessage): number => RANKS.get(event.kind) ?? EVENT_SYMBOLS.length;
   for (const event of events) if (rank(event) < rank(first)) first = event;
+  const look = eventLook(first);
   const others = events.length - 1;
   const more = others === 0 ? '' : `, and ${others} more`;
   return {
     px,
     events,
     first,
-    look: others > 0 && events.some(({ kind }) => kind !== first.kind) ? MIXED : eventLook(first),
+    look: events.every((event) => eventLook(event).colour === look.colour) ? look : MIXED,
     name: `${eventTitle(first)}: ${eventWords(first.what)}${more}`,
   };
 }

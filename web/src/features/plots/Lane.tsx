@@ -78,12 +78,7 @@ export function Lane(props: {
           </For>
         </Show>
       </div>
-      <Curve
-        name={words()}
-        context={context}
-        data={[times(), ...lines()]}
-        at={axis.pointed_s()}
-      />
+      <Curve name={words()} context={context} data={[times(), ...lines()]} at={axis.pointed_s()} />
       <div class="lane-range number" aria-hidden="true">
         <span>
           {end(range()[1])} {props.part.unit}

@@ -105,7 +105,10 @@ export function PlotMenu(props: {
               </For>
             </select>
           </label>
-          <div class="buttons" title="The figure with all plots and the path in the plane; CSV: the numbers">
+          <div
+            class="buttons"
+            title="The figure with all plots and the path in the plane; CSV: the numbers"
+          >
             Save
             <For each={FILES}>
               {(kind) => (

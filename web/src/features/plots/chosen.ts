@@ -6,13 +6,13 @@ import { isLow } from '../../ui/windowSize';
 import { type Part, PARTS } from './parts';
 
 /** From top to bottom. */
-const ORDER = [...'eabcd'];
+const ORDER = ['e', 'a', 'b', 'c', 'd'];
 const LANES = 3;
 const KEY = 'plots';
 
 /** Letters, the last chosen one at the end: the first ones give way. */
-const stored = [...(recall(KEY) ?? '')].filter((letter) => ORDER.includes(letter));
-const [chosen, setChosen] = createSignal(stored.length > 0 ? stored : [...'bae']);
+const stored = (recall(KEY) ?? '').split(' ').filter((letter) => ORDER.includes(letter));
+const [chosen, setChosen] = createSignal(stored.length > 0 ? stored : ['b', 'a', 'e']);
 
 export const isChosen = (letter: string): boolean => chosen().includes(letter);
 
@@ -20,7 +20,7 @@ export function choosePart(letter: string, isWanted: boolean): void {
   const others = chosen().filter((one) => one !== letter);
   const next = isWanted ? [...others, letter].slice(-LANES) : others;
   setChosen(next);
-  remember(KEY, next.join(''));
+  remember(KEY, next.join(' '));
 }
 
 export const isOnlyOne = (letter: string): boolean => chosen().length === 1 && isChosen(letter);

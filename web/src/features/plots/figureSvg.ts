@@ -3,7 +3,16 @@
 import { fixed } from '../../ui/format';
 import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
 import { fitView, pxFromWorld } from '../../plan/transform';
-import { type Line, linesOf, LOCUS_LETTER, type Part, partRange, PARTS, presentRules, rulesOf } from './parts';
+import {
+  type Line,
+  linesOf,
+  LOCUS_LETTER,
+  type Part,
+  partRange,
+  PARTS,
+  presentRules,
+  rulesOf,
+} from './parts';
 import type { Sample } from './sample';
 import type { Vec2 } from '../../lab/geometry';
 import type { Palette } from '../../ui/palette';
