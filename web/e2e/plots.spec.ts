@@ -1,12 +1,12 @@
-// The tab Plots: the values that each part shows, and saving as CSV, PNG and SVG.
+// The lanes of plots: the values that each part shows, which parts there are, and saving as CSV, PNG and SVG.
 
 import { readFile } from 'node:fs/promises';
 import { type Lab, expect, test } from './fixtures';
 import { must, until } from './support/wait';
 
-const PARTS = ['a', 'b', 'c', 'd', 'e', 'f'];
 /** Between two points of the server's course. */
 const COURSE_TICKS = 5;
+const PARTS = ['e', 'a', 'b'];
 
 const pictureOf = (lab: Lab, part: string) => lab.page.locator(`[data-part=${part}] [role=img]`);
 
@@ -14,7 +14,13 @@ async function textOf(lab: Lab, part: string) {
   return must(await pictureOf(lab, part).getAttribute('aria-label'), part);
 }
 
+async function openMenu(lab: Lab) {
+  const button = lab.button('More about plots');
+  if ((await button.getAttribute('aria-expanded')) === 'false') await button.click();
+}
+
 async function saved(lab: Lab, kind: 'CSV' | 'PNG' | 'SVG') {
+  await openMenu(lab);
   const [file] = await Promise.all([
     lab.page.waitForEvent('download'),
     lab.button(`Save ${kind}`).click(),
@@ -37,17 +43,19 @@ test("plots the paper's figure, and saves it", async ({ lab }) => {
 
   // With the pointer over one part, all parts show the values of the same moment.
   const box = await lab.boxOf(page.locator('[data-part=e] .plot-area'));
-  // The parts are drawn one after the other.
-  const end_m = must(lab.state.tool_m[0], 'x of the tool').toFixed(2).replace('-', '−');
-  await expect(pictureOf(lab, 'f')).toHaveAttribute('aria-label', new RegExp(`Tool \\(${end_m},`));
-  const locus = await textOf(lab, 'f');
-  await page.mouse.move(box.x + 0.3 * box.width, box.y + box.height / 2);
-  await expect(pictureOf(lab, 'f')).not.toHaveAttribute('aria-label', locus);
+  const last = await textOf(lab, 'a');
+  await page.mouse.move(box.x + 0.1 * box.width, box.y + box.height / 2);
+  await expect(pictureOf(lab, 'a')).not.toHaveAttribute('aria-label', last);
   const moment = must(/at ([\d.:]+ s)/.exec(await textOf(lab, 'e'))?.[1], 'the moment');
-  for (const part of ['a', 'b', 'c', 'd']) {
-    expect(await textOf(lab, part)).toContain(`at ${moment}`);
-  }
+  for (const part of ['a', 'b']) expect(await textOf(lab, part)).toContain(`at ${moment}`);
   await page.mouse.move(0, 0);
+
+  // There is room for three; another one takes the place of the one that was chosen first.
+  await openMenu(lab);
+  await page.getByRole('checkbox', { name: 'Error x' }).check();
+  await expect(pictureOf(lab, 'c')).toHaveAttribute('aria-label', /at \d/);
+  await expect(page.locator('.lane')).toHaveCount(3);
+  await expect(page.getByRole('checkbox', { name: 'y', exact: true })).not.toBeChecked();
 
   // Going back keeps the later rows until the session runs again.
   const all = await csvRows(lab);
@@ -64,10 +72,9 @@ test("plots the paper's figure, and saves it", async ({ lab }) => {
   const png = await saved(lab, 'PNG');
   expect(png.bytes.subarray(1, 4).toString()).toBe('PNG');
 
-  const height = async () => must(await page.locator('.lower').boundingBox(), 'the panel').height;
-  const before = await height();
-  await lab.button('Larger').click();
-  await expect.poll(height, { message: 'a larger panel' }).toBeGreaterThan(1.5 * before);
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('p');
+  await expect(page.locator('.lane')).toHaveCount(0);
 });
 
 test('has the course from the start without gaps, also after a reload and a step back', async ({
@@ -75,7 +82,7 @@ test('has the course from the start without gaps, also after a reload and a step
 }) => {
   const { page } = lab;
   const ticks = async () => {
-    await lab.tab('Plots').click();
+    await lab.button('Plots').click();
     const [, ...rows] = await csvRows(lab);
     return rows.map((row) => Number(row.split(',')[0]));
   };

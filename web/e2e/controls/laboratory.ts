@@ -67,7 +67,10 @@ export const VIEWS: Section = {
     'tab Recovery': { see: isSelected },
     'tab Challenge': { see: isSelected },
     'tab Magnet': { see: isSelected },
-    'tab Plots': { see: isSelected },
+    'button Plots': {
+      see: (_lab, locator) => locator.getAttribute('aria-pressed'),
+      isToggle: true,
+    },
     'button Camera': toggle(expanded),
     'button Parameters': toggle(expanded),
     'button Beside the workspace': toggle(expanded),

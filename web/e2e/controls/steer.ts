@@ -28,7 +28,7 @@ export const STEER: Section = {
     },
     'button Challenges…': {
       see: (lab) => lab.tab('Challenge').getAttribute('aria-selected'),
-      ready: (lab) => lab.button('Plots').click(),
+      ready: (lab) => lab.tab('Now').click(),
     },
     'button Set goal': { see: picking, after: (lab) => lab.canvas.press('Escape') },
   },

@@ -139,16 +139,26 @@ export const SCENE_VIEW: Section = {
 
 export const PLOTS: Section = {
   name: 'plots',
-  ready: tab('Plots'),
+  ready: async (lab) => {
+    for (const [name, attribute] of [
+      ['Plots', 'aria-pressed'],
+      ['More about plots', 'aria-expanded'],
+    ] as const) {
+      const button = lab.button(name);
+      if ((await button.getAttribute(attribute)) === 'false') await button.click();
+    }
+  },
   rows: {
+    'button More about plots': toggle(expanded),
+    'checkbox x': box,
+    'checkbox y': box,
+    'checkbox Error x': box,
+    'checkbox Error y': box,
+    'checkbox Distance e': box,
     'combobox Time window of the plots': { see: valueOf },
     'button Save CSV': { see: downloads },
     'button Save PNG': { see: downloads },
     'button Save SVG': { see: downloads },
-    'button Larger': {
-      see: (_lab, locator) => locator.getAttribute('aria-pressed'),
-      isToggle: true,
-    },
   },
 };
 

@@ -6,14 +6,16 @@ import { SteeredBy } from '../features/controller/SteeredBy';
 import { Timeline } from '../features/playback/Timeline';
 import { Transport } from '../features/playback/Transport';
 import { KeptRuns } from '../features/runs/KeptRuns';
+import { hasLanes, toggleLanes } from '../lab/lanes';
+import { lazyPanel } from '../lab/panel';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Lab } from '../lab/slices';
+import { createTimeAxis, type TimeAxis } from '../lab/timeAxis';
 import { clock } from '../ui/format';
 import { Icon } from '../ui/Icon';
-import { lazyPanel } from '../lab/panel';
 import './Dock.css';
 
-const PlotLanes = lazyPanel(() => import('../features/plots/PlotsPanel'));
+const PlotLanes = lazyPanel(() => import('../features/plots/PlotLanes'));
 
 /** Goes to the newest moment. */
 function Live(props: { lab: Lab }): JSX.Element {
@@ -38,32 +40,47 @@ function Live(props: { lab: Lab }): JSX.Element {
   );
 }
 
-export function Dock(props: {
-  lab: Lab;
-  hasPlots: boolean;
-  onPlots: (shown: boolean) => void;
-}): JSX.Element {
+/** The present time, and the time under a pointer, across all lanes. */
+function Cursors(props: { lab: Lab; axis: TimeAxis }): JSX.Element {
+  const { axis } = props;
+  const left = (time_s: number): string => `${(100 * axis.share(time_s)).toFixed(3)}%`;
+  return (
+    <div class="cursors" aria-hidden="true">
+      <span class="cursor" style={{ left: left(props.lab.state()?.sim_time_s ?? 0) }} />
+      <Show when={axis.pointed_s()}>
+        {(time_s) => (
+          <span class="cursor pointed number" style={{ left: left(time_s()) }}>
+            {clock(time_s())}
+          </span>
+        )}
+      </Show>
+    </div>
+  );
+}
+
+export function Dock(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
+  const axis = createTimeAxis(lab);
   const disturbs = (): boolean => lab.panel() === 'disturb';
+  const tick = (): string => `Tick ${lab.state()?.tick ?? 0}`;
   return (
     <footer class="dock" role="region" aria-label="Playback">
       <PlaceNotice lab={lab} place="workspace" />
       <PlaceNotice lab={lab} place="playback" />
-      <Show when={props.hasPlots}>
-        <div class="lanes">
-          <PlotLanes lab={lab} />
+      <div class="times">
+        <Show when={hasLanes()}>
+          <div class="lanes">
+            <PlotLanes lab={lab} axis={axis} />
+            <Cursors lab={lab} axis={axis} />
+          </div>
+        </Show>
+        <div class="time-row">
+          <span class="sim-time number" data-testid="sim-time" title={tick()}>
+            {clock(lab.state()?.sim_time_s ?? 0)}
+          </span>
+          <Timeline lab={lab} axis={axis} />
+          <Live lab={lab} />
         </div>
-      </Show>
-      <div class="time-row">
-        <span
-          class="sim-time number"
-          data-testid="sim-time"
-          title={`tick ${lab.state()?.tick ?? 0}`}
-        >
-          {clock(lab.state()?.sim_time_s ?? 0)}
-        </span>
-        <Timeline lab={lab} />
-        <Live lab={lab} />
       </div>
       <div class="transport">
         <Transport lab={lab} />
@@ -84,11 +101,9 @@ export function Dock(props: {
           <button
             type="button"
             aria-label="Plots"
-            aria-pressed={props.hasPlots}
+            aria-pressed={hasLanes()}
             title="Plots (P)"
-            onClick={() => {
-              props.onPlots(!props.hasPlots);
-            }}
+            onClick={toggleLanes}
           >
             <Icon of={Activity} />
             <span>Plots</span>

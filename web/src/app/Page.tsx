@@ -47,7 +47,6 @@ export function Page(): JSX.Element {
   const opener = createMapOpener(lab);
   const interaction = createInteraction(lab);
   const [mode, chooseMode] = createChoice('view', ['plan', 'scene']);
-  const [lanes, setLanes] = createChoice('lanes', ['closed', 'open']);
   createEffect(() => {
     document.title = view() === 'laboratory' ? 'Ferry' : `${VIEWS[view()]} – Ferry`;
     if (address.lesson() !== undefined) lab.showPanel('learn');
@@ -80,13 +79,7 @@ export function Page(): JSX.Element {
       <Switch>
         <Match when={view() === 'laboratory'}>
           {/* Before the panels, so that Run is among the first stops of the Tab key. */}
-          <Dock
-            lab={lab}
-            hasPlots={lanes() === 'open'}
-            onPlots={(shown) => {
-              setLanes(shown ? 'open' : 'closed');
-            }}
-          />
+          <Dock lab={lab} />
           <Stage
             lab={lab}
             interaction={interaction}

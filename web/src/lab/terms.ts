@@ -6,7 +6,6 @@ export const TERMS = {
     'What a trial does at the moment: holding, approaching, transporting, settling, delivered, lifted off, or stopped by a limit.',
   holding:
     'The arm does not move: no goal is set, a step was refused, or a limit was reached. Also: the hand holds the bead.',
-  locus: "The line of tool and bead in the plane, as in the paper's figure.",
   'sub-controller 1': 'Flies to the bead (fetch).',
   'sub-controller 2': 'Carries the bead to the goal by one of three transports.',
 } as const;

@@ -1,9 +1,10 @@
 // A computed curve with its title and the legend of its lines.
 
-import { For, Show, createEffect, on, onCleanup, onMount, untrack, type JSX } from 'solid-js';
+import { For, createEffect, on, onCleanup, onMount, untrack, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { createCurve, type CurveContext, type CurveLine, showCursor } from './curve';
+import { LineKey } from './LineKey';
 import { onSize } from './size';
 import { palette } from './palette';
 import './plot.css';
@@ -11,31 +12,22 @@ import './plot.css';
 /** What the colours of lines mean. */
 export function Keys(props: {
   lines: readonly Pick<CurveLine, 'label' | 'color' | 'isDashed'>[];
-  values?: readonly string[] | undefined;
 }): JSX.Element {
   return (
     <For each={props.lines}>
-      {(line, index) => (
-        <span class="key" data-color={line.color} data-dashed={line.isDashed ? '' : undefined}>
-          {line.label}{' '}
-          <Show when={props.values}>
-            {(values) => <span class="number">{values()[index()]}</span>}
-          </Show>
+      {(line) => (
+        <span class="key">
+          <LineKey of={line} />
+          {line.label}
         </span>
       )}
     </For>
   );
 }
 
-export function CurvePlot(props: {
-  /** Of a part in a figure. */
-  letter?: string;
-  title: string;
-  unit: string;
+/** The plot alone. */
+export function Curve(props: {
   name: string;
-  keys?: readonly CurveLine[];
-  /** Beside the keys. */
-  values?: readonly string[];
   context: CurveContext;
   data: uPlot.AlignedData;
   /** Place of the cursor while the pointer is elsewhere. */
@@ -77,15 +69,25 @@ export function CurvePlot(props: {
       ),
     );
   });
+  return <div ref={root} class="plot-area" role="img" aria-label={props.name} />;
+}
+
+export function CurvePlot(props: {
+  title: string;
+  unit: string;
+  name: string;
+  keys?: readonly CurveLine[];
+  context: CurveContext;
+  data: uPlot.AlignedData;
+}): JSX.Element {
   return (
-    <figure class="plot" data-part={props.letter}>
+    <figure class="plot">
       <figcaption>
-        <Show when={props.letter}>{(letter) => <span class="letter">{letter()}</span>}</Show>
         <strong>{props.title}</strong>
         <span class="unit">{props.unit}</span>
-        <Keys lines={props.keys ?? []} values={props.values} />
+        <Keys lines={props.keys ?? []} />
       </figcaption>
-      <div ref={root} class="plot-area" role="img" aria-label={props.name} />
+      <Curve name={props.name} context={props.context} data={props.data} />
     </figure>
   );
 }

@@ -62,6 +62,7 @@ export type Controller = keyof typeof LOOKS;
 
 /** All of them: a number stands for one in columns of samples. */
 export const CARRIERS = Object.keys(LOOKS) as readonly Controller[];
+export const isController = (name: string): name is Controller => Object.hasOwn(LOOKS, name);
 
 /** The dash of a controller's line of a width. */
 export const dashOf = (controller: Controller, width_px: number): number[] =>

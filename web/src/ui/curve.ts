@@ -1,6 +1,7 @@
 // A plot of a computed curve: a uPlot in the page's colours with marks.
 
 import uPlot from 'uplot';
+import { dashOf, isController } from './controllers';
 import { palette, type Palette } from './palette';
 
 export interface CurveLine {
@@ -12,6 +13,15 @@ export interface CurveLine {
   /** Whether the line goes on across points without a value. */
   readonly joinsGaps?: boolean;
   readonly hasPoints?: boolean;
+}
+
+/** A controller has its dash wherever it is shown. */
+export function dashesOf(
+  { color, isDashed = false }: Pick<CurveLine, 'color' | 'isDashed'>,
+  width_px: number,
+): number[] {
+  if (isDashed) return [5, 3];
+  return isController(color) ? dashOf(color, width_px) : [];
 }
 
 /** An interval of x, filled. */
@@ -32,6 +42,8 @@ export interface Rule {
 }
 
 export interface CurveContext {
+  /** The numbers of the axes are beside the plot, which has lines for those of x only. */
+  readonly isBare?: boolean;
   readonly lines: readonly CurveLine[];
   /** Pairs of lines, upper one first, with the area between them filled in the colour of the upper one. */
   readonly bands?: readonly (readonly [number, number])[];
@@ -41,19 +53,20 @@ export interface CurveContext {
   readonly yRange: (max: number, min: number) => [number, number];
   /** Where the axis has its numbers, of which `most` have room; without, at round ones. */
   readonly xSplits?: (most: number) => number[];
-  readonly xText: (value: number) => string;
+  readonly xText?: (value: number) => string;
   /** `step` is the distance to the next number. */
-  readonly yText: (value: number, step: number) => string;
+  readonly yText?: (value: number, step: number) => string;
   readonly shades?: () => readonly Shade[];
   readonly rules?: () => readonly Rule[];
   /** Called with the point under the pointer, and with nothing when the pointer leaves. */
   readonly onCursor?: (index: number | undefined) => void;
 }
 
-const FONT = '10px system-ui, sans-serif';
+const FACE = "'Inter Variable', system-ui, sans-serif";
+const FONT = `500 12px ${FACE}`;
 const GAP_PX = 3;
 /** Least distance of two numbers on the x axis. */
-const SPACE_PX = 44;
+const SPACE_PX = 52;
 /** Of the y axis, unless its numbers need more. */
 const LEAST_WIDTH_PX = 34;
 const CAP_PX = 3;
@@ -110,7 +123,7 @@ function drawRule(u: uPlot, rule: Rule, ctx: CanvasRenderingContext2D, ratio: nu
 
 function drawRules(u: uPlot, context: CurveContext): void {
   inside(u, (ctx, ratio) => {
-    ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+    ctx.font = `500 ${12 * ratio}px ${FACE}`;
     for (const rule of context.rules?.() ?? []) {
       ctx.lineWidth = (rule.isStrong ? 2 : 1) * ratio;
       ctx.strokeStyle = palette()[rule.color];
@@ -159,11 +172,11 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
   const axis = {
     stroke: () => palette()['ink-3'],
     font: FONT,
-    grid: { stroke: () => palette()['floor-grid'], width: 1 },
+    grid: { stroke: () => palette().line, width: 1 },
     ticks: { show: false },
     gap: GAP_PX,
   };
-  const { xSplits } = context;
+  const { xSplits, isBare = false } = context;
   return new uPlot(
     {
       width: Math.max(50, root.clientWidth),
@@ -177,19 +190,20 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
       axes: [
         {
           ...axis,
-          size: 18,
+          size: isBare ? 0 : 20,
           space: SPACE_PX,
-          values: (_u, ticks) => ticks.map(context.xText),
+          values: (_u, ticks) => ticks.map((tick) => context.xText?.(tick) ?? ''),
           ...(xSplits && {
             splits: (u) => xSplits(u.bbox.width / window.devicePixelRatio / SPACE_PX),
           }),
         },
         {
           ...axis,
+          show: !isBare,
           size: (u, texts: readonly string[] | null) => widthPx(u, texts ?? []),
           space: 18,
           values: (_u, ticks, _axis, _space, step) =>
-            ticks.map((tick) => context.yText(tick, step)),
+            ticks.map((tick) => context.yText?.(tick, step) ?? ''),
         },
       ],
       series: [
@@ -200,7 +214,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
           width: line.isEdge ? 0 : 1.5,
           pxAlign: 0,
           spanGaps: line.joinsGaps ?? false,
-          ...(line.isDashed ? { dash: [5, 3] } : {}),
+          dash: dashesOf(line, 1.5),
           points: { show: line.hasPoints ?? false, size: 5 },
         })),
       ],
@@ -228,7 +242,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
           },
         ],
       },
-      padding: [6, 20, 0, 0],
+      padding: isBare ? [2, 0, 2, 0] : [6, 20, 0, 0],
     },
     [[], ...context.lines.map(() => [])],
     root,

@@ -15,6 +15,7 @@ const NAMES = [
   'ink-2',
   'ink-3',
   'surface',
+  'line',
   'magnet',
   'north',
   'south',

@@ -1,11 +1,15 @@
-// Whether the window is that of a phone. The width is that of `--phone` in styles/breakpoints.css.
+// The kinds of windows that scripts need to know. Their sizes are those of styles/breakpoints.css.
 
-import { createSignal } from 'solid-js';
+import { createSignal, type Accessor } from 'solid-js';
 
-const query = matchMedia('(max-width: 640px)');
-const [phone, setPhone] = createSignal(query.matches);
-query.addEventListener('change', () => {
-  setPhone(query.matches);
-});
+function matches(query: string): Accessor<boolean> {
+  const list = matchMedia(query);
+  const [value, setValue] = createSignal(list.matches);
+  list.addEventListener('change', () => {
+    setValue(list.matches);
+  });
+  return value;
+}
 
-export const isPhone = phone;
+export const isPhone = matches('(max-width: 640px)');
+export const isLow = matches('(max-height: 719px)');

@@ -1,7 +1,7 @@
-// Achieved speed of simulated time, late ticks, and how often the session fell behind.
+// What the speed is if it is not the requested one, late ticks, and how often the session fell behind.
 
-import { Show, type JSX } from 'solid-js';
-import { achievedWords, lateWords, lostWords } from './steps';
+import { Show, createMemo, type JSX } from 'solid-js';
+import { lateWords, limitWords, lostWords } from './steps';
 import type { Trial } from '../../lab/slices';
 
 const LIMIT_HELP = 'This machine cannot run faster. The result of the trial is the same.';
@@ -9,29 +9,19 @@ const LATE_HELP = 'The machine is busy, so the last ticks came late. The result 
 
 export function Achieved(props: { lab: Trial }): JSX.Element {
   const { lab } = props;
-  const achieved = () =>
-    achievedWords(lab.state()?.speed_target ?? 1, lab.state()?.speed_achieved ?? 0);
-  const late = () => lateWords(lab.state()?.lateness_ms ?? 0);
-  const lost = () => lostWords(lab.state()?.missed_deadlines ?? 0);
+  const lost = createMemo(() => lostWords(lab.state()?.missed_deadlines ?? 0));
+  const shown = createMemo(() => {
+    const state = lab.state();
+    if (!state?.running) return undefined;
+    const limit = limitWords(state.speed_target, state.speed_achieved);
+    // At the machine's limit ticks are late in any case.
+    if (limit !== undefined) return { text: limit, help: LIMIT_HELP };
+    const late = lateWords(state.lateness_ms);
+    return late === undefined ? undefined : { text: late, help: LATE_HELP };
+  });
   return (
-    <span
-      class="achieved number"
-      data-testid="achieved"
-      title={['Simulated seconds per second that the server achieves', lost()]
-        .filter((words) => words !== undefined)
-        .join('; ')}
-    >
-      <Show when={lab.state()?.running} fallback="paused">
-        {achieved().text}
-        {/* At the machine's limit ticks are late in any case. */}
-        <Show when={achieved().limited ? 'machine limit' : late()}>
-          {(words) => (
-            <span class="limit" title={achieved().limited ? LIMIT_HELP : LATE_HELP}>
-              {words()}
-            </span>
-          )}
-        </Show>
-      </Show>
+    <span class="achieved number" data-testid="achieved" title={lost()}>
+      <Show when={shown()}>{(now) => <span title={now().help}>{now().text}</span>}</Show>
       <Show when={lost()}>{(words) => <span class="visually-hidden">; {words()}</span>}</Show>
     </span>
   );

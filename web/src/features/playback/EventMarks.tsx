@@ -1,39 +1,31 @@
 // The events on the timeline. Each is a button that opens the event's story.
 
-import { Index, createEffect, createMemo, createSignal, onMount, type JSX } from 'solid-js';
+import { Index, Show, createMemo, createSignal, onMount, type JSX } from 'solid-js';
 import { onSize } from '../../ui/size';
-import { Limiter } from '../../net/limiter';
 import { clusters, markTitle } from './eventMarks';
 import type { EventMessage } from '../../net/protocol.gen';
-import type { Events } from '../../lab/slices';
+import { Icon } from '../../ui/Icon';
+import type { TimeAxis } from '../../lab/timeAxis';
+import type { Events, Panels, Trial } from '../../lab/slices';
 
-/** Side of a mark, the same as `--target` in the style sheet. */
-const GAP_PX = matchMedia('(pointer: coarse)').matches ? 36 : 24;
-/**
- * While the simulation runs, hundreds of marks move a little with each state. Updating them sixty times per second is
- * not necessary.
- */
-const LAYOUTS_PER_S = 4;
+/** Marks nearer than this share one. */
+const GAP_PX = 25;
+const LEFT_PX = 8;
 /** Number of marks that a key moves by. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
-export function EventMarks(props: { lab: Events; oldest: number; newest: number }): JSX.Element {
-  const { lab } = props;
+export function EventMarks(props: { lab: Trial & Events & Panels; axis: TimeAxis }): JSX.Element {
+  const { lab, axis } = props;
   let bar!: HTMLDivElement;
   const [width_px, setWidth] = createSignal(0);
   onMount(() => {
     onSize(bar, ({ width }) => setWidth(width));
   });
-  const [line, setLine] = createSignal({ oldest: 0, newest: 0, marks: lab.marks() });
-  const layouts = new Limiter(1000 / LAYOUTS_PER_S, setLine);
-  createEffect(() => {
-    layouts.offer({ oldest: props.oldest, newest: props.newest, marks: lab.marks() });
-  });
   const found = createMemo(() => {
-    const { oldest, newest, marks } = line();
-    const span = Math.max(1, newest - oldest);
-    const px = (tick: number): number => (width_px() * Math.min(span, tick - oldest)) / span;
-    const held = marks.filter((mark) => mark.tick >= oldest);
+    const { from_s, to_s } = axis.span();
+    // The first one is not over the time.
+    const px = (time_s: number): number => Math.max(LEFT_PX, width_px() * axis.share(time_s));
+    const held = lab.marks().filter(({ sim_time_s: at }) => at >= from_s && at <= to_s);
     return width_px() > 0 ? clusters(held, px, GAP_PX) : [];
   });
   const [current, setCurrent] = createSignal<EventMessage>();
@@ -57,15 +49,14 @@ export function EventMarks(props: { lab: Events; oldest: number; newest: number 
   };
   return (
     <div ref={bar} class="event-marks" role="toolbar" aria-label="Events in time" onKeyDown={onKey}>
-      {/* Keyed by index and not by value, because every mark moves in a running session. */}
+      {/* Keyed by index and not by value, so that a mark keeps the focus when another one comes. */}
       <Index each={found()}>
         {(cluster, index) => (
           <button
             type="button"
             class="mark"
             data-kind={cluster().first.kind}
-            data-count={cluster().events.length > 1 ? cluster().events.length : undefined}
-            style={{ left: `${cluster().px}px` }}
+            style={{ left: `${cluster().px}px`, color: `var(--${cluster().look.colour})` }}
             tabindex={reached() === index ? 0 : -1}
             aria-label={cluster().name}
             title={markTitle(cluster().events)}
@@ -73,9 +64,12 @@ export function EventMarks(props: { lab: Events; oldest: number; newest: number 
             onClick={() => {
               setCurrent(cluster().first);
               lab.inspect(cluster().first);
+              lab.showPanel('story');
             }}
           >
-            {cluster().symbol}
+            <Show when={cluster().events.length > 1} fallback={<Icon of={cluster().look.icon} />}>
+              {cluster().events.length}
+            </Show>
           </button>
         )}
       </Index>

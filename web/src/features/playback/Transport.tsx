@@ -1,7 +1,7 @@
 // Run, step, reset and speed.
 
 import { createMemo, type JSX } from 'solid-js';
-import { Pause, Play, RotateCcw, StepForward } from 'lucide';
+import { ChevronDown, Pause, Play, RotateCcw, StepForward } from 'lucide';
 import { CommandButton } from '../../lab/CommandButton';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import { Icon } from '../../ui/Icon';
@@ -60,14 +60,17 @@ export function Transport(props: { lab: Session & Trial & Notices }): JSX.Elemen
       >
         <Icon of={RotateCcw} />
       </CommandButton>
-      <ServerSelect
-        label="Speed"
-        hideLabel
-        value={String(target())}
-        options={speeds()}
-        disabled={!lab.canOperate()}
-        onChoose={(value) => lab.send('playback', { type: 'set_speed', factor: Number(value) })}
-      />
+      <div class="speed">
+        <ServerSelect
+          label="Speed"
+          hideLabel
+          value={String(target())}
+          options={speeds()}
+          disabled={!lab.canOperate()}
+          onChoose={(value) => lab.send('playback', { type: 'set_speed', factor: Number(value) })}
+        />
+        <Icon of={ChevronDown} />
+      </div>
       <Achieved lab={lab} />
     </div>
   );

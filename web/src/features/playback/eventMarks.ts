@@ -2,11 +2,15 @@
 
 import { eventWords } from '../../words/events';
 import type { EventMessage } from '../../net/protocol.gen';
+import { type EventLook, eventLook } from '../../lab/eventLook';
 import { EVENT_SYMBOLS, eventTitle } from '../../lab/eventStory';
 
 /** A title names at most this many events. */
 const MAX_TITLES = 6;
 const RANKS = new Map(EVENT_SYMBOLS.map(([kind], rank) => [kind, rank]));
+
+/** Of a mark for events of several colours. */
+const MIXED: EventLook = { icon: [], colour: 'ink-2' };
 
 export function isMarked(event: EventMessage): boolean {
   return RANKS.has(event.kind);
@@ -16,22 +20,23 @@ export interface Cluster {
   /** Middle of the button. */
   readonly px: number;
   readonly events: readonly EventMessage[];
-  /** Kind of the most important event. */
+  /** The most important event. */
   readonly first: EventMessage;
-  readonly symbol: string;
+  readonly look: EventLook;
   readonly name: string;
 }
 
 function clusterOf(px: number, events: readonly EventMessage[], first: EventMessage): Cluster {
   const rank = (event: EventMessage): number => RANKS.get(event.kind) ?? EVENT_SYMBOLS.length;
   for (const event of events) if (rank(event) < rank(first)) first = event;
+  const look = eventLook(first);
   const others = events.length - 1;
   const more = others === 0 ? '' : `, and ${others} more`;
   return {
     px,
     events,
     first,
-    symbol: EVENT_SYMBOLS[rank(first)]?.[1] ?? '',
+    look: events.every((event) => eventLook(event).colour === look.colour) ? look : MIXED,
     name: `${eventTitle(first)}: ${eventWords(first.what)}${more}`,
   };
 }
@@ -46,13 +51,13 @@ export function markTitle(events: readonly EventMessage[]): string {
 /** Events in order of time, in clusters at least `gapPx` apart. */
 export function clusters(
   events: readonly EventMessage[],
-  px: (tick: number) => number,
+  px: (time_s: number) => number,
   gapPx: number,
 ): Cluster[] {
   const found: Cluster[] = [];
   for (const event of events) {
     if (!isMarked(event)) continue;
-    const at = px(event.tick);
+    const at = px(event.sim_time_s);
     const last = found.at(-1);
     if (last && at - last.px < gapPx) {
       found[found.length - 1] = clusterOf(last.px, [...last.events, event], last.first);

@@ -1,3 +1,4 @@
+import { toggleLanes } from '../../lab/lanes';
 import type { FeatureShortcuts } from '../../lab/shortcuts';
 import { nextSpeed, ticksToControlStep } from './steps';
 import { hintAtGoal, runOrPause } from './run';
@@ -42,5 +43,6 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices> = (lab,
         void lab.send('playback', { type: 'reset' });
       }),
     },
+    { group: 'Time', keys: ['p'], does: 'show or hide the plots', run: toggleLanes },
   ];
 };

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import {
-  achievedWords,
   lateWords,
+  limitWords,
   lostWords,
   nextSpeed,
   speedName,
@@ -18,15 +18,16 @@ describe('speeds', () => {
   });
 
   it('are named', () => {
-    expect(speedName(64)).toBe('max (64×)');
+    expect(speedName(64)).toBe('64× max');
     expect(speedName(0.125)).toBe('1/8×');
   });
 
-  it('are marked when the machine is at its limit', () => {
-    expect(achievedWords(1, 0.97)).toEqual({ text: 'achieved 0.97×', limited: false });
+  it('are shown when the machine is at its limit', () => {
+    expect(limitWords(1, 0.97)).toBeUndefined();
     // The simulation has just started to run.
-    expect(achievedWords(8, 0)).toEqual({ text: 'achieved –', limited: false });
-    expect(achievedWords(64, 21.04)).toEqual({ text: 'achieved 21.0×', limited: true });
+    expect(limitWords(8, 0)).toBeUndefined();
+    expect(limitWords(1, 0.5)).toBe('only 0.50×');
+    expect(limitWords(64, 21.04)).toBe('only 21.0×');
   });
 });
 

@@ -20,14 +20,10 @@ export function ticksToControlStep(tick: number, tick_s: number): number {
   return due - tick;
 }
 
-/** The achieved speed, and whether it is clearly below the requested one. An achieved speed of 0 means not measured yet. */
-export function achievedWords(
-  target: number,
-  achieved: number,
-): { text: string; limited: boolean } {
-  if (achieved === 0) return { text: 'achieved –', limited: false };
-  const limited = achieved < LIMITED * target;
-  return { text: `achieved ${fixed(achieved, achieved < 10 ? 2 : 1)}×`, limited };
+/** The achieved speed if it is clearly below the requested one. An achieved speed of 0 means not measured yet. */
+export function limitWords(target: number, achieved: number): string | undefined {
+  if (achieved === 0 || achieved >= LIMITED * target) return undefined;
+  return `only ${fixed(achieved, achieved < 10 ? 2 : 1)}×`;
 }
 
 /** Ticks come every 8 ms. Undefined if the delay is shorter than about two ticks. */
@@ -44,5 +40,5 @@ export function lostWords(times: number): string | undefined {
 }
 
 export function speedName(factor: number): string {
-  return factor === SPEED_MAX ? `max (${speed(factor)})` : speed(factor);
+  return factor === SPEED_MAX ? `${speed(factor)} max` : speed(factor);
 }

@@ -3,11 +3,11 @@ import { History } from '../../lab/history';
 import type { EventMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
 import { eventAt } from '../../lab/testingFacts';
-import { sampleAt } from './drawLocus';
-import { figureSvg, roundTicks } from './figureSvg';
+import { figureSvg } from './figureSvg';
 import { axisRange } from './parts';
 import { Rotation } from './rotation';
-import { csvOf, nearestIndex, shownWindow, spansOf, takeSample, thinnedIndices } from './sample';
+import { csvOf, nearestIndex, spansOf, takeSample, thinnedIndices } from './sample';
+import { roundTicks } from './ticks';
 import type { Palette } from '../../ui/palette';
 
 const disturbanceAt = (tick: number): EventMessage => eventAt(tick, 'disturbance');
@@ -18,24 +18,12 @@ function run(count: number, change: (tick: number) => Parameters<typeof stateAt>
   return history;
 }
 
-describe('the window', () => {
-  it('ends at the newest sample and covers at least ten seconds', () => {
-    expect(shownWindow('60', 100, 100)).toEqual({ from_s: 40, to_s: 100 });
-    expect(shownWindow('60', 3, 3)).toEqual({ from_s: 0, to_s: 10 });
-    expect(shownWindow('all', 100, 20)).toEqual({ from_s: 0, to_s: 100 });
-  });
-
-  it('stays when the rewound time is inside it, and follows the time otherwise', () => {
-    expect(shownWindow('60', 100, 50)).toEqual({ from_s: 40, to_s: 100 });
-    expect(shownWindow('10', 100, 50)).toEqual({ from_s: 45, to_s: 55 });
-    expect(shownWindow('10', 100, 2)).toEqual({ from_s: 0, to_s: 10 });
-  });
-});
+const ALL = { from_s: 0, to_s: Infinity };
 
 describe('a sample', () => {
   it('keeps a peak of one tick among thousands', () => {
     const history = run(50_000, (tick) => ({ tracking_error_m: tick === 31_234 ? 9 : 0.1 }));
-    const { columns } = takeSample(history, 'all', history.newest_s, []);
+    const { columns } = takeSample(history, ALL, history.newest_s, []);
     expect(columns.tick.length).toBeLessThan(2500);
     expect(columns.tick[columns.error_m.indexOf(9)]).toBe(31_234);
     expect(columns.tick[0]).toBe(0);
@@ -49,7 +37,7 @@ describe('a sample', () => {
 
   it('has the times of sub-controller 1 and of the disturbances', () => {
     const history = run(2000, (tick) => ({ mode: tick >= 500 && tick < 700 ? 1 : 2 }));
-    const sample = takeSample(history, 'all', 4, [
+    const sample = takeSample(history, { from_s: 0, to_s: 16 }, 4, [
       disturbanceAt(500),
       { ...disturbanceAt(600), kind: 'goal' },
       disturbanceAt(9000),
@@ -71,22 +59,9 @@ describe('a sample', () => {
     expect(nearestIndex(new Float64Array(), 1)).toBeUndefined();
   });
 
-  it('is found by its position; the later of two passes is returned', () => {
-    const sample = takeSample(
-      run(100, (tick) => ({ bead_m: [tick % 50, 0, 0], tool_m: [tick % 50, 1, 0] })),
-      'all',
-      0.8,
-      [],
-    );
-    const view = { pxPerM: 10, originX: 0, originY: 0 };
-    const index = sampleAt(sample, view, [201, 3], 8);
-    expect(sample.columns.tick[index ?? 0]).toBe(70);
-    expect(sampleAt(sample, view, [900, 900], 8)).toBeUndefined();
-  });
-
   it('becomes a table with every sample', () => {
     const history = run(3);
-    const lines = csvOf(history, takeSample(history, 'all', 0, [disturbanceAt(1)]))
+    const lines = csvOf(history, takeSample(history, ALL, 0, [disturbanceAt(1)]))
       .trim()
       .split('\n');
     expect(lines).toHaveLength(4);
@@ -101,7 +76,7 @@ describe('a rotation', () => {
     const frames: (() => void)[] = [];
     const done: (string | number)[] = [];
     const rotation = new Rotation(
-      3,
+      () => 3,
       () => done.push('begin'),
       (part) => done.push(part),
       (work) => frames.push(work),
@@ -146,7 +121,7 @@ describe('the figure as a file', () => {
     const svg = figureSvg({
       title: 'a <map> & more',
       palette,
-      sample: takeSample(history, 'all', 16, [disturbanceAt(1000)]),
+      sample: takeSample(history, { from_s: 0, to_s: 16 }, 16, [disturbanceAt(1000)]),
       threshold_m: 0.1,
       workspace,
       walls: [
@@ -165,7 +140,7 @@ describe('the figure as a file', () => {
     expect(svg).not.toContain('<map>');
     expect(svg).not.toMatch(/NaN|Infinity|undefined|style=/);
     // One disturbance: a vertical line in each part over time, a cross in the plane.
-    expect(svg.match(/stroke="#hand"/g)).toHaveLength(5 + 2);
-    expect(svg.match(/fill="#mode-1"/g)).toHaveLength(5);
+    expect(svg.match(/stroke="#you"/g)).toHaveLength(5 + 2);
+    expect(svg.match(/fill="#ink-3" fill-opacity/g)).toHaveLength(5);
   });
 });

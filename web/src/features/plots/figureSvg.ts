@@ -3,10 +3,20 @@
 import { fixed } from '../../ui/format';
 import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
 import { fitView, pxFromWorld } from '../../plan/transform';
-import { type Line, linesOf, LOCUS_LETTER, type Part, partRange, PARTS, rulesOf } from './parts';
+import {
+  type Line,
+  linesOf,
+  LOCUS_LETTER,
+  type Part,
+  partRange,
+  PARTS,
+  presentRules,
+  rulesOf,
+} from './parts';
 import type { Sample } from './sample';
 import type { Vec2 } from '../../lab/geometry';
 import type { Palette } from '../../ui/palette';
+import { roundTicks } from './ticks';
 
 export interface FigureFacts {
   /** One line about the trial. */
@@ -30,23 +40,10 @@ const BOX = {
 };
 const TICKS = 4;
 const TRAILS = [
-  { label: 'tool', color: 'magnet-line' },
+  { label: 'magnet', color: 'magnet-line' },
   { label: 'bead', color: 'bead-line' },
 ] as const;
 const CROSS_PX = 4;
-
-/** About `count` round numbers from `low` to `high`. */
-export function roundTicks(low: number, high: number, count: number): number[] {
-  const raw = (high - low) / count;
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const step = ([1, 2, 5, 10].find((factor) => factor * power >= raw * (1 - 1e-9)) ?? 10) * power;
-  const ticks: number[] = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) {
-    // No negative zero.
-    ticks.push(k * step + 0);
-  }
-  return ticks;
-}
 
 const escaped = (text: string): string =>
   text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
@@ -87,13 +84,7 @@ function timePart(part: Part, facts: FigureFacts): string {
   const { sample, palette, threshold_m } = facts;
   const times = sample.columns.sim_time_s;
   const values = linesOf(part, sample);
-  const all = values.flatMap((line) => [...line]);
-  const [low, high] = partRange(
-    part,
-    all.reduce((min, value) => Math.min(min, value), Infinity),
-    all.reduce((max, value) => Math.max(max, value), -Infinity),
-    threshold_m,
-  );
+  const [low, high] = partRange(part, values, threshold_m);
   const x = (time_s: number): number =>
     INSET.left + (BOX.width * (time_s - sample.from_s)) / (sample.to_s - sample.from_s);
   const y = (value: number): number => INSET.top + BOX.height * (1 - (value - low) / (high - low));
@@ -118,7 +109,7 @@ function timePart(part: Part, facts: FigureFacts): string {
     const [at, number] = [x(time_s), `${Number(time_s.toFixed(3))} s`];
     tick([at, INSET.top], [at, bottom], [at, bottom + 14], number, 'middle');
   }
-  for (const rule of rulesOf(part, sample, threshold_m)) {
+  for (const rule of [...rulesOf(part, sample, threshold_m), ...presentRules(sample)]) {
     const color = palette[rule.color];
     const dashes = rule.dashed ? 'stroke-dasharray="6 4"' : '';
     if (rule.axis === 'x') {

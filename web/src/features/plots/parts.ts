@@ -26,7 +26,7 @@ export interface Part {
   readonly threshold: boolean;
 }
 
-const POSITION = { unit: 'm', scale: 1, digits: 2, grain: 0.05, threshold: false };
+const POSITION = { unit: 'cm', scale: 100, digits: 0, grain: 5, threshold: false };
 const ERROR = { unit: 'cm', scale: 100, digits: 0, grain: 2 };
 
 export const PARTS: readonly Part[] = [
@@ -35,7 +35,7 @@ export const PARTS: readonly Part[] = [
     letter: 'a',
     title: 'x',
     lines: [
-      { column: 'tool_x_m', label: 'tool', color: 'magnet-line' },
+      { column: 'tool_x_m', label: 'magnet', color: 'magnet-line' },
       { column: 'bead_x_m', label: 'bead', color: 'bead-line' },
     ],
   },
@@ -44,7 +44,7 @@ export const PARTS: readonly Part[] = [
     letter: 'b',
     title: 'y',
     lines: [
-      { column: 'tool_y_m', label: 'tool', color: 'magnet-line' },
+      { column: 'tool_y_m', label: 'magnet', color: 'magnet-line' },
       { column: 'bead_y_m', label: 'bead', color: 'bead-line' },
     ],
   },
@@ -65,7 +65,7 @@ export const PARTS: readonly Part[] = [
   {
     ...ERROR,
     letter: 'e',
-    title: 'Error norm',
+    title: 'Distance e',
     threshold: true,
     lines: [{ column: 'error_m', label: 'e', color: 'ink' }],
   },
@@ -88,10 +88,17 @@ export function axisRange(min: number, max: number, grain: number): [number, num
 /** Ends of a part's axis, in shown units; `threshold_m` is part of what an axis with a threshold shows. */
 export function partRange(
   part: Part,
-  min: number,
-  max: number,
+  lines: readonly Float64Array[],
   threshold_m: number | undefined,
 ): [number, number] {
+  let [min, max] = [Infinity, -Infinity];
+  for (const line of lines) {
+    for (const value of line) {
+      if (value < min) min = value;
+      if (value > max) max = value;
+    }
+  }
+  if (min > max) [min, max] = [0, 0];
   if (!part.threshold) return axisRange(min, max, part.grain);
   return axisRange(0, Math.max(max, (threshold_m ?? 0) * part.scale * 1.25), part.grain);
 }
@@ -107,21 +114,25 @@ export function linesOf(part: Part, sample: Sample | undefined): Float64Array[] 
 /** The present time is marked only if it is at least this far before the newest sample. */
 const BEHIND_S = 0.02;
 
-/** Disturbances, the present time after a rewind, and the threshold. */
+const RULE = { axis: 'x', label: '', dashed: false } as const;
+
+/** The present time, after a rewind. */
+export const presentRules = (sample: Sample): Rule[] =>
+  sample.at_s < (sample.columns.sim_time_s.at(-1) ?? 0) - BEHIND_S
+    ? [{ ...RULE, at: sample.at_s, color: 'ink', isStrong: true }]
+    : [];
+
+/** Disturbances and the threshold. */
 export function rulesOf(
   part: Part,
   sample: Sample | undefined,
   threshold_m: number | undefined,
 ): Rule[] {
-  const rule = { axis: 'x', label: '', dashed: false } as const;
   const rules: Rule[] = (sample?.struck ?? []).map(({ time_s }) => ({
-    ...rule,
+    ...RULE,
     at: time_s,
     color: 'you',
   }));
-  if (sample && sample.at_s < (sample.columns.sim_time_s.at(-1) ?? 0) - BEHIND_S) {
-    rules.push({ ...rule, at: sample.at_s, color: 'accent', isStrong: true });
-  }
   if (part.threshold && threshold_m !== undefined) {
     const at = threshold_m * part.scale;
     rules.push({ axis: 'y', at, label: 'T', color: 'danger', dashed: true });

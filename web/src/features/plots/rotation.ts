@@ -6,9 +6,9 @@ export class Rotation {
   private going = false;
   private stopped = false;
 
-  /** `begin` takes the data for a round of `parts`. `nextFrame` calls its argument before the next frame. */
+  /** `begin` takes the data for a round of `parts()`. `nextFrame` calls its argument before the next frame. */
   constructor(
-    private readonly parts: number,
+    private readonly parts: () => number,
     private readonly begin: () => void,
     private readonly draw: (part: number) => void,
     private readonly nextFrame: (work: () => void) => void,
@@ -33,7 +33,7 @@ export class Rotation {
       this.begin();
     }
     this.draw(this.turn);
-    this.turn = (this.turn + 1) % this.parts;
+    this.turn = this.turn + 1 < this.parts() ? this.turn + 1 : 0;
     this.going = this.turn !== 0 || this.wanted;
     if (this.going) this.nextFrame(this.frame);
   };

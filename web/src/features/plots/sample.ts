@@ -1,18 +1,10 @@
 // The data of the figure: a window of the history, thinned to what a screen can show. Pure.
 
 import { type Column, COLUMNS, columnsOf, type History, type Samples } from '../../lab/history';
+import type { Span } from '../../lab/timeAxis';
 import type { EventMessage } from '../../net/protocol.gen';
 import { CARRIERS } from '../../ui/controllers';
 
-export const WINDOWS = [
-  ['10', '10 s'],
-  ['60', '60 s'],
-  ['all', 'All'],
-] as const;
-export type WindowChoice = (typeof WINDOWS)[number][0];
-
-/** The window covers at least this time, also early in a trial. */
-const MIN_WINDOW_S = 10;
 /** Number of intervals with extremes: more than the pixels of one part. */
 const INTERVALS = 300;
 /** Columns with peaks. The tool is too slow for peaks. */
@@ -24,28 +16,13 @@ export interface Struck {
   readonly at_m: readonly [number, number];
 }
 
-export interface Sample {
-  readonly from_s: number;
-  readonly to_s: number;
+export interface Sample extends Span {
   /** The present time. It is before the newest sample after a rewind. */
   readonly at_s: number;
   readonly columns: Samples;
   /** When sub-controller 1 was active. */
   readonly approaches: readonly (readonly [from_s: number, to_s: number])[];
   readonly struck: readonly Struck[];
-}
-
-/** Ends of the window: up to the newest sample, or around the present if the newest is too far ahead. */
-export function shownWindow(
-  choice: WindowChoice,
-  newest_s: number,
-  at_s: number,
-): { from_s: number; to_s: number } {
-  if (choice === 'all') return { from_s: 0, to_s: Math.max(MIN_WINDOW_S, newest_s) };
-  const width_s = Number(choice);
-  const to_s = at_s >= newest_s - width_s ? newest_s : Math.min(newest_s, at_s + width_s / 2);
-  const from_s = Math.max(0, to_s - width_s);
-  return { from_s, to_s: Math.max(to_s, from_s + MIN_WINDOW_S) };
 }
 
 /** Indices of the first sample and the extremes in `columns` of each interval, and of the last sample. */
@@ -99,11 +76,10 @@ export function spansOf(
 
 export function takeSample(
   history: History,
-  choice: WindowChoice,
+  { from_s, to_s }: Span,
   at_s: number,
   marks: readonly EventMessage[],
 ): Sample {
-  const { from_s, to_s } = shownWindow(choice, history.newest_s, at_s);
   const all = history.window(from_s, to_s);
   const times = all.sim_time_s;
   const indices = thinnedIndices(

@@ -1,8 +1,10 @@
 // The runs that rewinds, resets and other scenarios have left behind, and a way back to each.
 
 import { For, Show, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
+import { History } from 'lucide';
 import { CommandButton } from '../../lab/CommandButton';
 import type { Session, Trial } from '../../lab/slices';
+import { Icon } from '../../ui/Icon';
 import { createPopover } from '../../ui/popover';
 import { runWords } from './runs';
 import './runs.css';
@@ -27,7 +29,7 @@ export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
     <div {...popover.box} class="runs">
       <button
         {...popover.button}
-        class="small"
+        class="ghost icon-only"
         classList={{ fresh: isFresh() }}
         title={
           isFresh()
@@ -36,10 +38,14 @@ export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
         }
         disabled={runs().length === 0}
       >
-        Kept runs <span class="runs-count number">{runs().length}</span>
+        <Icon of={History} />
+        <span class="visually-hidden">Kept runs</span>
+        <Show when={runs().length > 0}>
+          <span class="runs-count number">{runs().length}</span>
+        </Show>
       </button>
       <Show when={popover.open() && runs().length > 0}>
-        <ol id="kept-runs" class="runs-list" aria-label="Kept runs">
+        <ol id="kept-runs" class="runs-list popover" aria-label="Kept runs">
           <For each={runs()}>
             {(run) => (
               <li>

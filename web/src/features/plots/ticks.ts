@@ -1,0 +1,24 @@
+// Round numbers on an axis. Pure.
+
+import { duration } from '../../ui/format';
+
+const TIMES = 8;
+
+/** About `count` round numbers from `low` to `high`. */
+export function roundTicks(low: number, high: number, count: number): number[] {
+  const raw = (high - low) / count;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = ([1, 2, 5, 10].find((factor) => factor * power >= raw * (1 - 1e-9)) ?? 10) * power;
+  const ticks: number[] = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) {
+    // No negative zero.
+    ticks.push(k * step + 0);
+  }
+  return ticks;
+}
+
+export const timeTicks = ({ from_s, to_s }: { from_s: number; to_s: number }): number[] =>
+  roundTicks(from_s, to_s, TIMES);
+
+export const tickWords = (time_s: number): string =>
+  time_s < 60 ? `${Number(time_s.toFixed(3))} s` : duration(time_s);
