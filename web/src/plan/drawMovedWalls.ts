@@ -65,9 +65,9 @@ export function drawMovedWalls(
   ctx.rect(...pxRect(view, scene.workspace));
   ctx.clip();
   drawShadow(ctx, outer, unit, palette);
-  ctx.restore();
   // A line is slower to draw than two surfaces. The upper one hides loops of an outline that has closed in on itself.
   ctx.fillStyle = palette['wall-rim'];
   ctx.fill(outer);
+  ctx.restore();
   relief.drawMoved(ctx, view, isStill, wallPath(tray, walls, view, half));
 }

@@ -195,7 +195,7 @@ export class Relief {
     soften(
       ctx,
       ratio,
-      { colour: 'rgb(255 255 255 / 0.22)', blur: 1.2 * unit, to: [1.5 * unit, 2 * unit] },
+      { colour: 'rgb(255 255 255 / 0.17)', blur: 1.2 * unit, to: [1.5 * unit, 2 * unit] },
       () => {
         ctx.lineWidth = 2.6 * unit;
         ctx.stroke(edge);

@@ -11,16 +11,16 @@ import { framed, freePath, type Tray, unitM } from './tray';
 
 /** Distances from the free places, in units, and how much the tissue that is nearer is darker. */
 const TERRACES = [
-  [118, 0.13],
-  [84, 0.16],
-  [56, 0.2],
-  [32, 0.25],
+  [118, 0.11],
+  [84, 0.13],
+  [56, 0.16],
+  [32, 0.2],
 ] as const;
 /** Width of the step between two terraces, and of the light on it. */
-const STEP = 1.6;
-const LIGHT_ALPHA = 0.085;
-const LIP = 10.5;
-const LIP_SOFT = 3.5;
+const STEP = 1.8;
+const LIGHT_ALPHA = 0.07;
+const LIP = 9.5;
+const LIP_SOFT = 9;
 const GRAIN: Rgb = [64, 20, 13];
 const GRAIN_ALPHA = 0.05;
 
