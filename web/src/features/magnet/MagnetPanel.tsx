@@ -1,11 +1,13 @@
-// The Magnet tab: what the magnet can do with the current parameters, also while a slider moves.
+// What the magnet can do with the current parameters, also while a slider moves.
 
-import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
+import { Magnet as MagnetIcon } from 'lucide';
 import { createAnswer } from '../../net/requests';
 import { axisLabel, fixed } from '../../ui/format';
 import {
   breakaway,
+  captureSentence,
   directionOf,
   HEIGHTS_M,
   heldRatio,
@@ -19,6 +21,8 @@ import {
 } from './magnet';
 import type { Parameters, PullCurve, ReachCurve } from '../../net/protocol.gen';
 import { CurvePlot } from '../../ui/CurvePlot';
+import { Icon } from '../../ui/Icon';
+import { Segmented } from '../../ui/Segmented';
 import type { CurveContext, Rule } from '../../ui/curve';
 import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
@@ -143,7 +147,12 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
   });
 
   return (
-    <div class="magnet" classList={{ refused: error() !== undefined }}>
+    <section class="magnet" classList={{ refused: error() !== undefined }}>
+      <h3>
+        <Icon of={MagnetIcon} />
+        Magnet
+      </h3>
+      <MagnetControls lab={lab} />
       <CurvePlot
         title="Pull"
         unit="of weight"
@@ -152,6 +161,9 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
         context={pullContext}
         data={pullData()}
       />
+      <p class="magnet-sentence" data-testid="magnet-sentence">
+        <Show when={pull().data}>{(curve) => captureSentence(curve().capture_m)}</Show>
+      </p>
       <CurvePlot
         title="Capture by height"
         unit="cm"
@@ -160,31 +172,7 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
         context={reachContext}
         data={reachData()}
       />
-      <div class="magnet-words">
-        <MagnetControls lab={lab} />
-        <fieldset class="choice" role="radiogroup" aria-label="Bead beside the block, toward">
-          <span class="unit">Curves toward</span>
-          <For each={SIDES}>
-            {([id, name]) => (
-              <label>
-                <input
-                  type="radio"
-                  name="magnet-side"
-                  value={id}
-                  checked={side() === id}
-                  onChange={() => setSide(id)}
-                />
-                {name}
-              </label>
-            )}
-          </For>
-        </fieldset>
-        <MagnetFacts
-          parameters={props.parameters}
-          side={side()}
-          pull={pull().data}
-          reach={here().data}
-        />
+      <div class="magnet-said">
         <div role="alert">
           <Show when={error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
         </div>
@@ -192,11 +180,27 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
           <p class="hint">{pointed() ?? hint()}</p>
         </Show>
       </div>
-    </div>
+      <div class="magnet-side">
+        <span>Curves toward</span>
+        <Segmented
+          label="Bead beside the block, toward"
+          name="magnet-side"
+          value={side()}
+          segments={SIDES.map(([value, label]) => ({ value, label }))}
+          onChoose={setSide}
+        />
+      </div>
+      <MagnetFacts
+        parameters={props.parameters}
+        side={side()}
+        pull={pull().data}
+        reach={here().data}
+      />
+    </section>
   );
 }
 
-export default function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
+export function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
   return (
     <Show
       when={props.lab.edits.shown()}
