@@ -162,8 +162,8 @@ export function SwitchingLaw(props: Props & { lab: Panels }): JSX.Element {
           <Show when={props.state.refusal}>
             {(refusal) => <p class="refusal">Holding: {holdWords(refusal())}</p>}
           </Show>
+          <p class="rule">{ruleText(props.scene.parameters)}</p>
         </div>
-        <p class="rule">{ruleText(props.scene.parameters)}</p>
       </section>
       <MagnetAndBead {...props} />
     </>

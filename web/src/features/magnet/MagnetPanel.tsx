@@ -77,7 +77,7 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
   const pullContext: CurveContext = {
     lines: [
       { label: 'lift', color: 'ink' },
-      { label: 'pull', color: 'magnet' },
+      { label: 'pull', color: 'magnet-line' },
       { label: 'friction', color: 'bead-line' },
     ],
     xRange: () => [0, 100 * shownOffset(pull().data?.capture_m ?? null)],
@@ -113,13 +113,14 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
 
   const reachContext: CurveContext = {
     lines: [
-      { label: 'outer end', color: 'magnet' },
-      { label: 'inner end', color: 'magnet' },
+      { label: 'outer end', color: 'magnet-line' },
+      { label: 'inner end', color: 'magnet-line' },
     ],
     bands: [[0, 1]],
     xRange: () => [1000 * HEIGHTS_M[0], 1000 * HEIGHTS_M[1]],
     yRange: (max) => [0, Math.max(5, 1.1 * max)],
-    xText: (value) => `${value} mm`,
+    // All would touch each other.
+    xText: (value) => (value % 40 === 20 ? `${value} mm` : ''),
     yText: axisLabel,
     shades: () => {
       const end_m = liftOff_m();

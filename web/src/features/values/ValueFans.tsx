@@ -145,16 +145,6 @@ export function ValueWords(props: {
           )}
         </Show>
       </p>
-      <p class="keys" title="The sum of future rewards. Later rewards count less">
-        Return:
-        <For each={KEYS}>
-          {([part, name]) => (
-            <span>
-              <i class={part} /> {name}
-            </span>
-          )}
-        </For>
-      </p>
       <p class="policy">
         <Show when={props.judgement}>
           {(judgement) => (
@@ -175,6 +165,16 @@ export function ValueWords(props: {
             </>
           )}
         </Show>
+      </p>
+      <p class="keys" title="The sum of future rewards. Later rewards count less">
+        Return:
+        <For each={KEYS}>
+          {([part, name]) => (
+            <span>
+              <i class={part} /> {name}
+            </span>
+          )}
+        </For>
       </p>
     </div>
   );
