@@ -109,15 +109,14 @@ export function EventsPanel(props: PanelProps): JSX.Element {
     }),
   );
   const onKey = (event: KeyboardEvent): void => {
-    const all = events();
-    const now = reached();
+    const buttons = [...list.querySelectorAll<HTMLElement>('button.story-line')];
+    const at = buttons.findIndex((button) => button === event.target);
     const move = MOVES[event.key];
-    const isLine = event.target instanceof Element && event.target.matches('.story-line');
-    if (!move || !now || !isLine) return;
+    if (!move || at < 0) return;
     event.preventDefault();
-    const index = Math.min(all.length - 1, Math.max(0, move(all.indexOf(now), all.length)));
-    setCurrent(all[index]);
-    list.querySelectorAll<HTMLElement>('button.story-line')[index]?.focus();
+    const index = Math.min(buttons.length - 1, Math.max(0, move(at, buttons.length)));
+    setCurrent(events()[index]);
+    buttons[index]?.focus();
   };
   const press = (event: EventMessage | undefined): void => {
     setCurrent(event);
