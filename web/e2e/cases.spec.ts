@@ -38,7 +38,7 @@ async function makeCase(lab: Lab) {
   await lab.page.mouse.up();
   await until('the bead at its new place', async () => distance(await lab.bead(), away) < 0.01);
   const { tick, world_hash: hash } = await steps(lab, 2);
-  await lab.tab('Events').click();
+  await lab.panel('Story');
   const downloading = lab.page.waitForEvent('download');
   await lab.page.getByRole('link', { name: 'Keep as test case' }).click();
   const text = await readFile(await (await downloading).path(), 'utf8');
@@ -48,7 +48,7 @@ async function makeCase(lab: Lab) {
 }
 
 async function choose(lab: Lab, text: string) {
-  await lab.tab('Events').click();
+  await lab.panel('Story');
   const opening = lab.page.waitForEvent('filechooser');
   await lab.button('Open test case…').click();
   const file = { name: 'a.json', mimeType: 'application/json', buffer: Buffer.from(text) };

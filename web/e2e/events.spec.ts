@@ -59,7 +59,7 @@ test('explains a switch, and rewinds to it', async ({ lab }) => {
 
 test('keeps a drag as a test case', async ({ lab }) => {
   await disturbedTransport(lab);
-  await lab.tab('Events').click();
+  await lab.panel('Story');
   const downloading = lab.page.waitForEvent('download');
   await lab.page.getByRole('link', { name: 'Keep as test case' }).click();
   const download = await downloading;

@@ -29,7 +29,7 @@ async function setNewGoal(lab: Lab) {
 /** Opens the explanation of an event that has others before and after it. */
 async function openExplanation(lab: Lab) {
   if (await dialogs(lab)) return;
-  await lab.tab('Events').click();
+  await lab.panel('Story');
   await lab.page
     .getByRole('button', { name: /^Why: / })
     .nth(-2)
@@ -117,7 +117,7 @@ export const EVENTS: Section = {
     await setNewGoal(lab);
     await ensurePaused(lab);
     await lab.deliver();
-    await lab.tab('Events').click();
+    await lab.panel('Story');
   },
   rows: {
     // In the toolbar of the timeline.

@@ -66,10 +66,8 @@ export const VIEWS: Section = {
     'tab Compare': { see: isSelected },
     'tab Recovery': { see: isSelected },
     'tab Challenge': { see: isSelected },
-    'tab Magnet': { see: isSelected },
     'tab Plots': { see: isSelected },
     'button Camera': toggle(expanded),
-    'button Parameters': toggle(expanded),
     'button Beside the workspace': toggle(expanded),
     'button Below the workspace': toggle(expanded),
     'button Share': toggle(expanded),
@@ -120,14 +118,15 @@ export const WORKSPACE: Section = {
         await lab.button('Fit').waitFor();
       },
     },
-    'combobox Blocks': {
+    'radio quadtree': {
       see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d'),
       ready: async (lab) => {
         if (!(await lab.page.getByTestId('blocks').count())) await lab.button('Step').click();
         await lab.page.getByTestId('blocks').waitFor();
-        await lab.label('Blocks').selectOption('none');
       },
     },
+    'radio rectangles': { see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d') },
+    'radio No blocks': { see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d') },
   },
 };
 

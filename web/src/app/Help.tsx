@@ -25,12 +25,12 @@ function WhatYouSee(): JSX.Element {
       <p>There are three sub-controllers 2:</p>
       <ul>
         <For each={CONTROLLERS}>
-            {(name) => (
-              <li>
-                {CONTROLLER_LABELS[name]}: {CONTROLLER_HELP[name]}
-              </li>
-            )}
-          </For>
+          {(name) => (
+            <li>
+              {CONTROLLER_LABELS[name]}: {CONTROLLER_HELP[name]}
+            </li>
+          )}
+        </For>
       </ul>
     </section>
   );

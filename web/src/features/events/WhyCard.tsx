@@ -90,9 +90,9 @@ export function WhyCard(props: {
     on(
       () => props.event,
       () => {
-        const by = ledBy && card.querySelector<HTMLElement>(`[aria-label="${ledBy}"]:enabled`);
+        const by = card.querySelector<HTMLElement>(`[aria-label="${ledBy ?? ''}"]:enabled`);
         ledBy = undefined;
-        (by || card).focus({ preventScroll: true });
+        (by ?? card).focus({ preventScroll: true });
         card.parentElement?.scrollIntoView({ block: 'nearest' });
       },
     ),

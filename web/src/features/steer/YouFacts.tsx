@@ -61,7 +61,7 @@ export function YouFacts(props: { lab: ByHand & Panels }): JSX.Element {
         label="What you see"
         value={lab.sight()}
         options={SIGHTS.map(([name, label]) => [name, label] as const)}
-        onChoose={lab.setSight}
+        onChoose={(sight) => lab.setSight(sight)}
       />
       <p class="hint">{help()}</p>
       <button
