@@ -67,7 +67,11 @@ export const VIEWS: Section = {
     'tab Recovery': { see: isSelected },
     'tab Challenge': { see: isSelected },
     'tab Plots': { see: isSelected },
-    'button Camera': toggle(expanded),
+    'button Camera': toggle(expanded, (lab) => lab.panel('Now')),
+    'button Curves': {
+      see: (lab) => lab.tab('Tune').getAttribute('aria-selected'),
+      ready: (lab) => lab.panel('Now'),
+    },
     'button Beside the workspace': toggle(expanded),
     'button Below the workspace': toggle(expanded),
     'button Share': toggle(expanded),
