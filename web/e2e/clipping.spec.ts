@@ -24,7 +24,7 @@ test('the pictures of the camera and the tabs are inside their panels', async ({
   const { page } = lab;
   await lab.step(1);
   await expect(page.getByTestId('blocks')).toBeVisible();
-  const camera = page.locator('.panel.camera');
+  const camera = page.getByRole('tabpanel', { name: 'Now' });
   for (const name of ['Network: image', 'Network: goal, tool']) {
     expect(await outside(camera.getByText(name), camera), name).toBeLessThanOrEqual(0);
   }

@@ -92,9 +92,11 @@ test('shows the action values of a policy and its decision', async ({ lab }) => 
   });
   const { taken, trained_on } = judgement;
   const best = values.indexOf(Math.max(...values));
-  const words = await page.getByText('Taken:').innerText();
-  expect(words).toContain(['+x', '−x', '+y', '−y'][taken]);
-  expect(words.includes('next best'), `${values.join()}, but ${words}`).toBe(best !== taken);
+  const words = await lab.text('rl-decision');
+  expect(words).toMatch(new RegExp(`^${['Right', 'Left', 'Up', 'Down'][taken] ?? ''} `));
+  expect(words.includes('The shield refused'), `${values.join()}, but ${words}`).toBe(
+    best !== taken,
+  );
   await expect(page.getByTestId('rl-trained-on')).toHaveText(trained_on.join(', '));
   await expect(page.getByTestId('rl-unseen')).toHaveCount(0);
 

@@ -7,7 +7,8 @@ import { distance } from './support/table';
 import { until } from './support/wait';
 
 const COMPUTED_MS = 60_000;
-const SWITCHED = /Sub-controller 1 takes over: bead lost: \d+ mm away, more than T = 100 mm\./i;
+const SWITCHED =
+  /Sub-controller 1 takes over: bead lost: \d+\.\d cm away, more than T = 10\.0 cm\./i;
 const FLIES = /Sub-controller 1 flies to the bead/i;
 const OVER_THE_LIMIT = /over the limit/i;
 
@@ -28,7 +29,7 @@ async function openEvent(lab: Lab, kind: string) {
   const bar = lab.page.getByRole('toolbar', { name: 'Events in time' });
   await bar.getByRole('button').first().click();
   const card = lab.page.getByRole('dialog');
-  const texts = () => card.locator('h2, .why-sentence').allInnerTexts();
+  const texts = () => card.locator('#why-title, .why-sentence').allInnerTexts();
   for (;;) {
     const now = await texts();
     if (now[0]?.startsWith(kind)) return card;

@@ -26,6 +26,7 @@ test('explains a failure, and delivers by another controller', async ({ openLab,
   expect(await violations(lab.page)).toEqual([]);
   expect(faultsOf(await controls(lab.page), MIN_SIDE_PX.mouse)).toEqual([]);
   // The event's story has the same words.
+  await lab.panel('Story');
   await lab.page.getByRole('button', { name: /^Why: Stopped/ }).click();
   const story = lab.page.getByRole('dialog');
   await expect(story.locator('.why-cause')).toHaveText(CAUSE);

@@ -47,7 +47,7 @@ interface TestFixtures {
 const skipTips = (page: Page) =>
   page.addInitScript(() => {
     localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
-    for (const panel of ['camera', 'parameters', 'lower', 'aside']) {
+    for (const panel of ['camera', 'lower', 'aside']) {
       if (localStorage.getItem(`ferry.panel.${panel}`) === null) {
         localStorage.setItem(`ferry.panel.${panel}`, 'open');
       }

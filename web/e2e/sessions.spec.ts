@@ -37,6 +37,7 @@ test('opens one session per address', async ({ lab, openLab, newSession }) => {
   await other.layer('Value');
   await values;
   const moment = requested(`${api}/moments/`);
+  await other.panel('Story');
   await page
     .getByRole('button', { name: /^Why: / })
     .last()

@@ -80,16 +80,16 @@ test('does not move when messages arrive one by one', async ({ page, session }) 
   expect(cls, worst.join('\n')).toBeLessThan(MAX_SHIFT);
 });
 
-test('keeps the parameters in their place when the first decision comes', async ({ lab }) => {
-  const parameters = lab.page.getByRole('button', { name: 'Parameters' });
+test('keeps the switching law in its place when the first decision comes', async ({ lab }) => {
+  const law = lab.page.getByTestId('reason');
   const decision = lab.page.getByTestId('rl-taken');
   await lab.reset();
   await lab.controller('RL');
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1) ?? [0, 0]);
   await expect(decision).toHaveCount(0);
-  const before = await parameters.boundingBox();
+  const before = await law.boundingBox();
   await lab.stepUntil('a decision', async () => (await decision.count()) > 0, CONTROL_STEP_TICKS);
-  expect(await parameters.boundingBox()).toEqual(before);
+  expect(await law.boundingBox()).toEqual(before);
 });
 
 test('does not move while a session runs', LONG, async ({ page, session, openLab }) => {

@@ -66,13 +66,15 @@ export const VIEWS: Section = {
     'tab Compare': { see: isSelected },
     'tab Recovery': { see: isSelected },
     'tab Challenge': { see: isSelected },
-    'tab Magnet': { see: isSelected },
     'button Plots': {
       see: (_lab, locator) => locator.getAttribute('aria-pressed'),
       isToggle: true,
     },
-    'button Camera': toggle(expanded),
-    'button Parameters': toggle(expanded),
+    'button Camera': toggle(expanded, (lab) => lab.panel('Now')),
+    'button Curves': {
+      see: (lab) => lab.tab('Tune').getAttribute('aria-selected'),
+      ready: (lab) => lab.panel('Now'),
+    },
     'button Beside the workspace': toggle(expanded),
     'button Below the workspace': toggle(expanded),
     'button Share': toggle(expanded),
@@ -123,14 +125,15 @@ export const WORKSPACE: Section = {
         await lab.button('Fit').waitFor();
       },
     },
-    'combobox Blocks': {
+    'radio quadtree': {
       see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d'),
       ready: async (lab) => {
         if (!(await lab.page.getByTestId('blocks').count())) await lab.button('Step').click();
         await lab.page.getByTestId('blocks').waitFor();
-        await lab.label('Blocks').selectOption('none');
       },
     },
+    'radio rectangles': { see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d') },
+    'radio No blocks': { see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d') },
   },
 };
 

@@ -100,9 +100,7 @@ const GROUPS: readonly Group[] = [
     fields: {
       Block: choice('block_orientation'),
       Tool: choice('tool_orientation'),
-      'Tool height': number('tool_height_m'),
       Bead: choice('bead_motion'),
-      'Friction μ': number('friction'),
       'Rolling resistance': number('rolling_resistance'),
       'Viscous drag': number('drag_n_s_m'),
     },
@@ -180,6 +178,7 @@ const GROUPS_OF_EVERY_KIND = ['RL', 'Switching'];
 const sectionOf = ({ name, controller, fields }: Group): Section => ({
   name: `parameters: ${name}`,
   ready: async (lab) => {
+    await lab.panel('Tune');
     if (controller) await lab.controller(controller);
     const summary = summaryOf(lab, name);
     const isOpen = () => summary.evaluate((one) => (one.parentElement as HTMLDetailsElement).open);

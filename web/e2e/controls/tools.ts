@@ -25,7 +25,7 @@ import {
 const box: Row = { see: isChecked, isToggle: true };
 const sentDisturbance = lastSent('disturb');
 const script = (lab: Lab) => lab.scene.scenario.script;
-const magnetFacts = (lab: Lab) => lab.page.locator('.magnet-words .facts').innerText();
+const magnetFacts = (lab: Lab) => lab.page.locator('.magnet .facts').innerText();
 const scenes = (lab: Lab) => lab.label('Scene').count();
 
 const choose = (label: string, option: string) => (lab: Lab) =>
@@ -164,16 +164,15 @@ export const PLOTS: Section = {
 
 export const MAGNET: Section = {
   name: 'the magnet',
-  ready: tab('Magnet'),
+  ready: tab('Tune'),
   rows: {
     'radio the bead': { see: magnetFacts },
     'radio x': { see: magnetFacts },
     'radio y': { see: magnetFacts },
-    'combobox Magnet': bound('block_orientation'),
-    'spinbutton Height': bound('tool_height_m'),
-    'slider Height slider': bound('tool_height_m'),
-    'spinbutton Friction': bound('friction'),
-    'slider Friction slider': bound('friction'),
+    'spinbutton Tool height': bound('tool_height_m'),
+    'slider Tool height slider': bound('tool_height_m'),
+    'spinbutton Friction μ': bound('friction'),
+    'slider Friction μ slider': bound('friction'),
     // One component for all fields that have help.
     'button /^Help: ./': toggle(expanded),
   },

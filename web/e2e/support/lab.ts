@@ -276,7 +276,14 @@ export class Lab extends Stepper {
     await this.isRole('operator');
   }
 
+  /** Opens a panel of the inspector, if it is not open. */
+  async panel(name: string) {
+    const tab = this.tab(name);
+    if ((await tab.getAttribute('aria-selected')) !== 'true') await tab.click();
+  }
+
   async restoreDefaults() {
+    await this.panel('Tune');
     // The page restores what it shows as changed.
     await this.drawn();
     await this.button('Restore defaults').click();
@@ -289,6 +296,7 @@ export class Lab extends Stepper {
 
   /** Types the value of a parameter into its field. */
   async tune(name: string, value: string) {
+    await this.panel('Tune');
     await this.spin(name).fill(value);
     await this.spin(name).press('Enter');
   }

@@ -1,60 +1,58 @@
-// Details of the active controller.
+// What the active controller sees and decides.
 
 import { Match, Show, Switch, type JSX } from 'solid-js';
+import { CameraFacts } from '../features/camera/CameraFacts';
+import { CameraSight } from '../features/camera/CameraSight';
 import { PlannerFacts } from '../features/planner/PlannerFacts';
 import { ProgramFacts } from '../features/program/ProgramFacts';
 import { RobotFacts } from '../features/robot/RobotFacts';
-import { ValueFans } from '../features/values/ValueFans';
-import type { ByHand, Panels, Pictures, Trial } from '../lab/slices';
 import { YouFacts } from '../features/steer/YouFacts';
-import type { ControllerName } from '../net/protocol.gen';
-import './ControllerFacts.css';
+import { ValueFans, ValueWords } from '../features/values/ValueFans';
+import type { ByHand, Notices, Panels, Pictures, Trial } from '../lab/slices';
 
-const NONE_YET: Record<ControllerName, string | undefined> = {
-  rl: 'The policy has not decided anything yet.',
-  errt: 'There is no plan yet.',
-  replanner: 'There is no plan yet.',
-  attractor: undefined,
-  you: undefined,
-  program: undefined,
-  robot: undefined,
-};
+type FactsLab = Trial & Pictures & Notices & ByHand & Panels;
 
-export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & Panels }): JSX.Element {
+export function ControllerFacts(props: { lab: FactsLab }): JSX.Element {
   const { lab } = props;
+  const judgement = () => lab.overlay()?.judgement ?? undefined;
   return (
     <Show when={lab.state()}>
-      {(state) => (
-        <>
-          <Show when={state().controller === 'you'}>
-            <YouFacts lab={lab} />
-          </Show>
-          <Show when={state().controller === 'program'}>
-            <ProgramFacts program={state().program} />
-          </Show>
-          <Show when={state().controller === 'robot' && state().robot}>
-            {(robot) => <RobotFacts robot={robot()} />}
-          </Show>
-          <Show when={NONE_YET[state().controller]}>
-            {(none) => (
-              <div class="controller-facts" data-controller={state().controller}>
-                <Switch fallback={<p class="none-yet">{none()}</p>}>
-                  <Match when={lab.overlay()?.plan}>
-                    {(plan) => <PlannerFacts plan={plan()} state={state()} />}
-                  </Match>
-                  <Match when={lab.overlay()?.judgement}>
-                    {(judgement) => (
-                      <Show when={lab.scene()}>
-                        {(scene) => <ValueFans judgement={judgement()} map={scene().map} />}
-                      </Show>
-                    )}
-                  </Match>
-                </Switch>
-              </div>
-            )}
-          </Show>
-        </>
-      )}
+      {(state) => {
+        const isBy = (...controllers: string[]): boolean =>
+          controllers.includes(state().controller);
+        return (
+          <>
+            <CameraSight lab={lab}>
+              <Switch
+                fallback={
+                  <CameraFacts overlay={lab.overlay()} sensesObstacles={isBy('attractor')} />
+                }
+              >
+                <Match when={isBy('rl')}>
+                  <ValueFans judgement={judgement()} />
+                </Match>
+                <Match when={isBy('errt', 'replanner')}>
+                  <PlannerFacts plan={lab.overlay()?.plan ?? undefined} state={state()} />
+                </Match>
+              </Switch>
+            </CameraSight>
+            <Switch>
+              <Match when={isBy('rl')}>
+                <ValueWords judgement={judgement()} map={lab.scene()?.map ?? ''} />
+              </Match>
+              <Match when={isBy('you')}>
+                <YouFacts lab={lab} />
+              </Match>
+              <Match when={isBy('program')}>
+                <ProgramFacts program={state().program} />
+              </Match>
+              <Match when={isBy('robot') && state().robot}>
+                {(robot) => <RobotFacts robot={robot()} />}
+              </Match>
+            </Switch>
+          </>
+        );
+      }}
     </Show>
   );
 }

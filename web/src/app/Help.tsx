@@ -4,7 +4,7 @@ import { CircleQuestionMark } from 'lucide';
 import { For, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from './pageShortcuts';
 import { attachShortcuts, keyName } from '../ui/shortcuts';
-import { CONTROLLERS, CONTROLLER_HELP } from '../lab/parameters';
+import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS } from '../lab/parameters';
 import { createChoice } from '../ui/storage';
 import type { Lab } from '../lab/slices';
 import { Icon } from '../ui/Icon';
@@ -24,7 +24,13 @@ function WhatYouSee(): JSX.Element {
       </p>
       <p>There are three sub-controllers 2:</p>
       <ul>
-        <For each={CONTROLLERS}>{(name) => <li>{CONTROLLER_HELP[name]}</li>}</For>
+        <For each={CONTROLLERS}>
+          {(name) => (
+            <li>
+              {CONTROLLER_LABELS[name]}: {CONTROLLER_HELP[name]}
+            </li>
+          )}
+        </For>
       </ul>
     </section>
   );

@@ -1,7 +1,6 @@
 // Who steers, what it sees, why it moves as it does, and which sub-controller is on.
 
 import type { JSX } from 'solid-js';
-import { CameraPanel } from '../features/camera/CameraPanel';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
 import { TwinFacts } from '../features/twin/TwinFacts';
 import type { PanelProps } from '../lab/panel';
@@ -14,7 +13,6 @@ export function NowPanel(props: PanelProps): JSX.Element {
       <ControllerPanel lab={props.lab}>
         <ControllerFacts lab={props.lab} />
       </ControllerPanel>
-      <CameraPanel lab={props.lab} />
     </>
   );
 }

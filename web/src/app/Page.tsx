@@ -26,7 +26,6 @@ import { createMapOpener } from '../features/maps/opener';
 import { showMap } from '../features/train/state';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
 import { ShareButton } from '../features/share/ShareButton';
-import { WhyCard } from '../features/why/WhyCard';
 import { onFileDrop } from '../ui/fileDrop';
 import { lazyView } from '../ui/lazyPart';
 import type { ViewPicture } from '../plan/viewPicture';
@@ -101,12 +100,7 @@ export function Page(): JSX.Element {
                 address.show('train');
               },
             }}
-            above={
-              <>
-                <FailureCard lab={lab} />
-                <WhyCard lab={lab} />
-              </>
-            }
+            above={<FailureCard lab={lab} />}
           />
           <PhoneTabs lab={lab} />
         </Match>

@@ -60,7 +60,7 @@ function runningStatus(state: StateMessage): Status {
     case 'approaching':
       return plain('The arm fetches the bead', {
         ...whose,
-        more: `${centimetres(state.tracking_error_m)} away`,
+        more: `${centimetres(state.tracked_error_m)} away`,
       });
     case 'transporting':
       return controller === 'you'

@@ -14,9 +14,9 @@ test('a text becomes a sentence, and a sentence stays unchanged', () => {
 
 test('a margin has a distance and a side', () => {
   const over = momentOf({ error_m: 0.142, threshold_m: 0.1 });
-  expect(marginWords(over)).toBe('42 mm over the limit');
+  expect(marginWords(over)).toBe('4.2 cm over the limit');
   const within = momentOf({ error_m: 0.008, threshold_m: 0.01 });
-  expect(marginWords(within)).toBe('2 mm within the limit');
+  expect(marginWords(within)).toBe('0.2 cm within the limit');
 });
 
 test('the explanation of a sub-controller names its inputs', () => {

@@ -54,7 +54,7 @@ export function sentence(text: string): string {
 /** How far the error is from the threshold. */
 export function marginWords({ error_m, threshold_m }: MomentMessage): string {
   const over_m = error_m - threshold_m;
-  return `${millimetres(Math.abs(over_m))} ${over_m > 0 ? 'over' : 'within'} the limit`;
+  return `${centimetres(Math.abs(over_m))} ${over_m > 0 ? 'over' : 'within'} the limit`;
 }
 
 function transport(moment: MomentMessage): string {

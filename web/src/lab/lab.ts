@@ -163,6 +163,7 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
   createEffect(() => {
     if (state()?.controller !== 'you') setSight('all');
   });
+  const panels = createPanels();
   return {
     ...basis,
     address: createAddress(page),
@@ -176,7 +177,10 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
     log: part('log'),
     marks: part('marks'),
     inspected,
-    inspect: setInspected,
+    inspect: (event) => {
+      setInspected(event);
+      if (event) panels.showPanel('story');
+    },
     notices: part('notices'),
     dismiss: (place, id) => {
       take({ type: 'dismiss', place, id });
@@ -192,6 +196,6 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
     setSight,
     comparison,
     ...createLayerChoice(knownLayers),
-    ...createPanels(),
+    ...panels,
   };
 }

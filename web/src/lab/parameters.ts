@@ -27,17 +27,15 @@ export const labelOf = (name: string): string => LABELS[name] ?? shownName(name)
 
 /** What each controller does, one or two sentences. */
 export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
-  rl: "RL: a trained neural network. From the camera's pictures it judges four directions, step by step.",
-  errt: 'ERRT: a path planner. It plans a whole path around the walls that it has seen, and plans again at each new one.',
-  attractor:
-    'Attractor: no plan. It heads for the goal, and walls in view bend its motion. It can get stuck.',
+  rl: 'A trained network. From the camera’s picture it judges four directions, step by step.',
+  errt: 'A path planner. It plans a path around the walls it has seen, and again at each new one.',
+  attractor: 'No plan. It heads for the goal, and walls in view bend its motion. It can get stuck.',
   replanner:
-    'Replanner: the shortest path around the walls that it has seen, and a new one at each new wall. A reference for evaluations.',
-  you: 'You: your hand points the tool to a place, and it goes there as fast as the controllers may.',
+    'The shortest path around the walls it has seen, and a new one at each new wall. A reference for evaluations.',
+  you: 'Your hand points the tool to a place, and it goes there as fast as the controllers may.',
   program:
     'A program outside of Ferry. It gets the image at each step, and answers where the tool goes.',
-  robot:
-    'Robot client: a program for a UR5 commands the joints. Neither sub-controller moves the arm.',
+  robot: 'A program for a UR5 commands the joints. Neither sub-controller moves the arm.',
 };
 
 export type NumberName = {

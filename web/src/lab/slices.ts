@@ -47,6 +47,7 @@ export interface Events {
   readonly marks: Accessor<Model['marks']>;
   /** The event whose story is open. */
   readonly inspected: Accessor<EventMessage | undefined>;
+  /** Opens the story of an event in its panel; undefined closes it. */
   inspect(event: EventMessage | undefined): void;
 }
 

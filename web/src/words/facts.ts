@@ -10,7 +10,7 @@ import type {
   TroubleFact,
   VoidFact,
 } from '../net/protocol.gen';
-import { fixed, millimetres } from '../ui/format';
+import { centimetres, fixed } from '../ui/format';
 
 export const place = (x_m: number, y_m: number): string => `(${fixed(x_m, 3)}, ${fixed(y_m, 3)}) m`;
 
@@ -47,10 +47,10 @@ export function phaseWords(phase: PhaseFact): string {
 export function reasonWords(reason: Reason, hasDistance = false): string {
   if (reason.code === 'lifted_off')
     return 'lift-off: the bead hangs on the magnet; take it off by hand, or reset';
-  const far = hasDistance ? `${millimetres(reason.error_m)} away, ` : '';
+  const far = hasDistance ? `${centimetres(reason.error_m)} away, ` : '';
   if (reason.code === 'wall_between')
     return `fetching${hasDistance ? ': ' : ', '}${far}but a wall is between`;
-  const limit = millimetres(reason.threshold_m);
+  const limit = centimetres(reason.threshold_m);
   switch (reason.code) {
     case 'lost':
       return `bead lost: ${far}more than T = ${limit}`;

@@ -12,7 +12,7 @@ describe('facts', () => {
       'stopped: 150 steps without reaching the goal',
     );
     expect(reasonWords({ code: 'lost', error_m: 0.155, threshold_m: 0.1 })).toBe(
-      'bead lost: more than T = 100 mm',
+      'bead lost: more than T = 10.0 cm',
     );
     expect(troubleWords('ERRT', { code: 'walled_off' })).toBe(
       'ERRT found no path: the goal is walled off.',
@@ -30,7 +30,7 @@ describe('events', () => {
     );
     const fact = { code: 'lost', error_m: 0.155, threshold_m: 0.1, text: '' } as const;
     expect(eventWords({ code: 'took_over', sub_controller: 1, reason: fact })).toBe(
-      'sub-controller 1 takes over: bead lost: 155 mm away, more than T = 100 mm',
+      'sub-controller 1 takes over: bead lost: 15.5 cm away, more than T = 10.0 cm',
     );
   });
 });

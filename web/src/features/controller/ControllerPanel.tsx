@@ -8,7 +8,7 @@ import {
   controllerLabel,
   policyName,
 } from '../../lab/parameters';
-import type { Session, Trial } from '../../lab/slices';
+import type { Panels, Session, Trial } from '../../lab/slices';
 import type { StateMessage } from '../../net/protocol.gen';
 import { Glyph } from '../../ui/Glyph';
 import { troubleWords } from '../../words/facts';
@@ -24,7 +24,7 @@ function About(props: { state: StateMessage; policy: string }): JSX.Element {
   const help = (): string => {
     const { controller } = props.state;
     if (controller !== 'rl' || props.policy === 'auto') return CONTROLLER_HELP[controller];
-    return `RL with the policy “${policyName(props.policy)}”: from the camera's pictures it judges four directions, step by step.`;
+    return `The policy “${policyName(props.policy)}”: from the camera’s picture it judges four directions, step by step.`;
   };
   return (
     <p class="about-controller" classList={{ trouble: trouble() !== undefined }}>
@@ -35,7 +35,7 @@ function About(props: { state: StateMessage; policy: string }): JSX.Element {
 
 /** The children show details of the active controller. */
 export function ControllerPanel(props: {
-  lab: Session & Trial;
+  lab: Session & Trial & Panels;
   children: JSX.Element;
 }): JSX.Element {
   const { lab } = props;
@@ -44,20 +44,26 @@ export function ControllerPanel(props: {
       {(scene) => (
         <Show when={lab.state()}>
           {(state) => (
-            <section class="controller">
-              <h2>
-                <Glyph of={state().controller} />
-                {controllerLabel({
-                  controller: state().controller,
-                  program: state().program?.name ?? null,
-                })}
-              </h2>
-              <About state={state()} policy={scene().parameters.rl_policy} />
-              {props.children}
-              <Show when={!isLedFromOutside(state())}>
-                <SwitchingLaw state={state()} scene={scene()} />
-              </Show>
-            </section>
+            <div class="now">
+              <div class="now-columns">
+                <section class="controller">
+                  <h2>
+                    <Glyph of={state().controller} />
+                    {controllerLabel({
+                      controller: state().controller,
+                      program: state().program?.name ?? null,
+                    })}
+                  </h2>
+                  <About state={state()} policy={scene().parameters.rl_policy} />
+                  {props.children}
+                </section>
+                <Show when={!isLedFromOutside(state())}>
+                  <div class="law">
+                    <SwitchingLaw lab={lab} state={state()} scene={scene()} />
+                  </div>
+                </Show>
+              </div>
+            </div>
           )}
         </Show>
       )}

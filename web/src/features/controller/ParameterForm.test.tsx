@@ -11,7 +11,6 @@ const threshold = page.getByRole('spinbutton', { name: /^Threshold T( •)?$/ })
 const { parameters } = sceneOf('posts');
 
 async function open() {
-  localStorage.setItem('ferry.panel.parameters', 'open');
   const { lab, server } = fakeLab();
   show(() => (
     <Show when={lab.scene()}>{(scene) => <ParameterForm lab={lab} scene={scene()} />}</Show>
@@ -86,22 +85,22 @@ it('shows one distance between tool and bead, that of now', async () => {
     <Show when={lab.scene()}>
       {(scene) => (
         <Show when={lab.state()}>
-          {(state) => <SwitchingLaw scene={scene()} state={state()} />}
+          {(state) => <SwitchingLaw lab={lab} scene={scene()} state={state()} />}
         </Show>
       )}
     </Show>
   ));
   const reason = page.getByTestId('reason');
   for (const [code, threshold_m, shown] of [
-    ['fetching', 0.01, 'fetching: not yet within 10 mm'],
-    ['wall_between', 0.01, 'fetching, but a wall is between'],
-    ['lost', 0.1, 'bead lost: more than T = 100 mm'],
+    ['fetching', 0.01, 'Fetching: not yet within 1.0 cm.'],
+    ['wall_between', 0.01, 'Fetching, but a wall is between.'],
+    ['lost', 0.1, 'Bead lost: more than T = 10.0 cm.'],
   ] as const) {
     const why = { code, error_m: 0.155, threshold_m, text: '' };
     server.state({ reason: why, tracked_error_m: 0.133 });
     await expect.element(reason).toHaveTextContent(new RegExp(`^${shown}$`));
   }
-  await expect.element(page.getByText('13.3 cm')).toBeVisible();
+  await expect.element(page.getByText('13.3 cm apart')).toBeVisible();
 });
 
 it('draws T on a fixed scale', async () => {
@@ -110,7 +109,7 @@ it('draws T on a fixed scale', async () => {
     <Show when={lab.scene()}>
       {(scene) => (
         <Show when={lab.state()}>
-          {(state) => <SwitchingLaw scene={scene()} state={state()} />}
+          {(state) => <SwitchingLaw lab={lab} scene={scene()} state={state()} />}
         </Show>
       )}
     </Show>
@@ -118,9 +117,8 @@ it('draws T on a fixed scale', async () => {
   const at = async (threshold_m: number, shown: string): Promise<number> => {
     server.scene({ parameters: { ...parameters, threshold_m } });
     await expect.element(page.getByText(`2→1 at e > T = ${shown}`)).toBeVisible();
-    return Number(
-      /^M([\d.]+)/.exec(document.querySelector('.gauge .mark')?.getAttribute('d') ?? '')?.[1],
-    );
+    const mark = document.querySelector<HTMLElement>('[data-limit="threshold"]');
+    return Number.parseFloat(mark?.style.left ?? '');
   };
   await expect.element(page.getByText(/2→1 at e > T/)).toBeVisible();
   const [five, ten, twenty] = [await at(0.05, '5.0'), await at(0.1, '10.0'), await at(0.2, '20.0')];

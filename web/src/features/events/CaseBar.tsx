@@ -20,13 +20,17 @@ export function CaseBar(props: { lab: Lab }): JSX.Element {
     return scene?.case && state ? caseWords(scene.case, lab.marks(), state, scene.tick_s) : [];
   };
   return (
-    <div class="case-bar">
-      <For each={words()}>{(sentence) => <p>{sentence}</p>}</For>
-      <div class="buttons">
+    <>
+      <Show when={words().length > 0}>
+        <div class="case-words">
+          <For each={words()}>{(sentence) => <p>{sentence}</p>}</For>
+        </div>
+      </Show>
+      <footer class="inspector-foot">
         <Show when={caseAddress()}>
           {(address) => (
             <a
-              class="button small"
+              class="button"
               href={address()}
               download=""
               title="The trial with all inputs, as a file. In tests/cases it becomes a test"
@@ -36,7 +40,7 @@ export function CaseBar(props: { lab: Lab }): JSX.Element {
           )}
         </Show>
         <FileButton
-          class="small"
+          class="ghost"
           accept=".json,application/json"
           inputName="File of the test case"
           disabled={!lab.canOperate()}
@@ -45,7 +49,7 @@ export function CaseBar(props: { lab: Lab }): JSX.Element {
         >
           Open test case…
         </FileButton>
-      </div>
-    </div>
+      </footer>
+    </>
   );
 }

@@ -1,16 +1,28 @@
-// All events, oldest first. The list stays at the newest event unless the user scrolls up.
+// The story: all events, the newest first. A press unfolds why one happened.
 
-import { For, Show, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
+import {
+  Show,
+  createEffect,
+  createMemo,
+  createSignal,
+  on,
+  type Accessor,
+  type JSX,
+} from 'solid-js';
+import { Dynamic } from 'solid-js/web';
+import { TriangleAlert } from 'lucide';
 import { clock } from '../../ui/format';
+import { ForKeyed } from '../../ui/ForKeyed';
+import { Icon } from '../../ui/Icon';
+import { eventLook, type EventLook } from '../../lab/eventLook';
 import type { PanelProps } from '../../lab/panel';
 import type { LogLine } from '../../lab/model';
+import type { Lab } from '../../lab/slices';
 import type { EventMessage } from '../../net/protocol.gen';
-import { SYMBOL_LEGEND, eventTitle } from '../../lab/eventStory';
+import { eventTitle, isSameEvent } from '../../lab/eventStory';
 import { CaseBar } from './CaseBar';
+import { WhyCard } from './WhyCard';
 import './events.css';
-
-/** Closer to the end than this, the list follows new events. */
-const FOLLOW_PX = 24;
 
 /** The button that a key moves to, from the number of the current one and the number of buttons. */
 const MOVES: Partial<Record<string, (at: number, count: number) => number>> = {
@@ -20,19 +32,59 @@ const MOVES: Partial<Record<string, (at: number, count: number) => number>> = {
   End: (_, count) => count - 1,
 };
 
-const when = (line: LogLine): string =>
-  line.sim_time_s === undefined ? '' : clock(line.sim_time_s);
+const TROUBLE: EventLook = { icon: TriangleAlert, colour: 'danger' };
+
+function Line(props: {
+  lab: Lab;
+  line: LogLine;
+  /** The event that can be explained. */
+  event: EventMessage | undefined;
+  isOpen: boolean;
+  isReached: boolean;
+  onPress: () => void;
+}): JSX.Element {
+  const look = (): EventLook => (props.line.event ? eventLook(props.line.event) : TROUBLE);
+  const time = (): string =>
+    props.line.sim_time_s === undefined ? '' : clock(props.line.sim_time_s);
+  /** Only with a story it is a button. */
+  const button = (): JSX.ButtonHTMLAttributes<HTMLButtonElement> =>
+    props.event
+      ? {
+          type: 'button',
+          'aria-label': `Why: ${eventTitle(props.event)}: ${props.line.text}`,
+          'aria-expanded': props.isOpen,
+          tabindex: props.isReached ? 0 : -1,
+          onClick: props.onPress,
+        }
+      : {};
+  return (
+    <li data-kind={props.line.kind}>
+      <Dynamic component={props.event ? 'button' : 'div'} class="story-line" {...button()}>
+        <time class="number">{time()}</time>
+        <span class="pin" style={{ color: `var(--${look().colour})` }}>
+          <Icon of={look().icon} />
+        </span>
+        <span class="what">
+          {props.line.text}
+          <Show when={props.line.count > 1}> (×{props.line.count})</Show>
+        </span>
+      </Dynamic>
+      <Show when={props.isOpen && props.event}>
+        {(event) => <WhyCard lab={props.lab} event={event()} />}
+      </Show>
+    </li>
+  );
+}
 
 export function EventsPanel(props: PanelProps): JSX.Element {
   const { lab } = props;
-  let box!: HTMLDivElement;
-  let following = true;
+  let list!: HTMLUListElement;
+  const lines = createMemo(() => lab.log().toReversed());
   /** Only a moment on the timeline can be explained; an event of the session itself has no story. */
   const onTimeline = (event: EventMessage | undefined): EventMessage | undefined =>
     event && event.kind !== 'session' && lab.marks().includes(event) ? event : undefined;
   const events = createMemo(() =>
-    lab
-      .log()
+    lines()
       .map(({ event }) => onTimeline(event))
       .filter((event) => event !== undefined),
   );
@@ -40,74 +92,62 @@ export function EventsPanel(props: PanelProps): JSX.Element {
   // Tab reaches one event: the last chosen one, otherwise the newest.
   const reached = createMemo(() => {
     const chosen = current();
-    return chosen && events().includes(chosen) ? chosen : events().at(-1);
+    return chosen && events().includes(chosen) ? chosen : events()[0];
   });
-  const onKey = (event: KeyboardEvent): void => {
-    const all = events();
-    const now = reached();
-    const move = MOVES[event.key];
-    if (!move || !now) return;
-    event.preventDefault();
-    const index = Math.min(all.length - 1, Math.max(0, move(all.indexOf(now), all.length)));
-    setCurrent(all[index]);
-    box.querySelectorAll('button')[index]?.focus();
+  const isOpen = (event: EventMessage | undefined): boolean => {
+    const open = lab.inspected();
+    return open !== undefined && event !== undefined && isSameEvent(open, event);
   };
-  createEffect(() => {
-    lab.log();
-    if (following) box.scrollTop = box.scrollHeight;
-  });
+  const alone = (): EventMessage | undefined =>
+    events().some(isOpen) ? undefined : lab.inspected();
+  // Closing a story returns the focus.
+  let from: Element | null = null;
+  createEffect(
+    on(lab.inspected, (now, before) => {
+      if (now && !before) from = document.activeElement;
+      if (!now && before && from instanceof HTMLElement) from.focus();
+    }),
+  );
+  const onKey = (event: KeyboardEvent): void => {
+    const buttons = [...list.querySelectorAll<HTMLElement>('button.story-line')];
+    const at = buttons.findIndex((button) => button === event.target);
+    const move = MOVES[event.key];
+    if (!move || at < 0) return;
+    event.preventDefault();
+    const index = Math.min(buttons.length - 1, Math.max(0, move(at, buttons.length)));
+    setCurrent(events()[index]);
+    buttons[index]?.focus();
+  };
+  const press = (event: EventMessage | undefined): void => {
+    setCurrent(event);
+    lab.inspect(isOpen(event) ? undefined : event);
+  };
   return (
-    <div class="log">
-      <div
-        ref={box}
-        class="log-lines"
-        role="log"
-        aria-live="off"
-        aria-label="Events"
-        // Without buttons the keyboard could not scroll it.
-        tabindex={events().length === 0 ? 0 : undefined}
-        onKeyDown={onKey}
-        onScroll={() => {
-          following = box.scrollHeight - box.scrollTop - box.clientHeight < FOLLOW_PX;
-        }}
-      >
-        <p class="hint log-legend">
-          Timeline: {SYMBOL_LEGEND}; a number: events in one mark. Click a mark or a time: why.
-        </p>
-        <Show when={lab.log().length === 0}>
-          <p class="placeholder">No events yet.</p>
-        </Show>
-        <For each={lab.log()}>
-          {(line) => (
-            <p class="log-line" data-kind={line.kind}>
-              <span class="when number">
-                <Show when={onTimeline(line.event)} fallback={when(line)}>
-                  {(event) => (
-                    <button
-                      type="button"
-                      class="link-like"
-                      aria-label={`Why: ${eventTitle(event())}`}
-                      title="Why did this happen?"
-                      tabindex={reached() === event() ? 0 : -1}
-                      onClick={() => {
-                        setCurrent(event());
-                        lab.inspect(event());
-                      }}
-                    >
-                      {when(line)}
-                    </button>
-                  )}
-                </Show>
-              </span>
-              <span class="what">
-                {line.text}
-                <Show when={line.count > 1}> (×{line.count})</Show>
-              </span>
-            </p>
-          )}
-        </For>
+    <>
+      <h2>Story</h2>
+      <Show when={alone()}>{(event) => <WhyCard lab={lab} event={event()} isAlone />}</Show>
+      <Show when={lines().length === 0}>
+        <p class="placeholder">No events yet.</p>
+      </Show>
+      <div role="log" aria-live="off" aria-label="Events" onKeyDown={onKey}>
+        <ul ref={list} class="story">
+          <ForKeyed each={lines()} by={({ id }) => String(id)}>
+            {(line: Accessor<LogLine>) => (
+              <Line
+                lab={lab}
+                line={line()}
+                event={onTimeline(line().event)}
+                isOpen={isOpen(line().event)}
+                isReached={reached() === line().event}
+                onPress={() => {
+                  press(line().event);
+                }}
+              />
+            )}
+          </ForKeyed>
+        </ul>
       </div>
       <CaseBar lab={lab} />
-    </div>
+    </>
   );
 }

@@ -1,4 +1,4 @@
-// Explains why a goal was not reached, and what to try. Over the lower edge of the workspace, where it moves nothing.
+// Explains why a goal was not reached, and what to try.
 
 import { Show, createMemo, createSignal, type JSX } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
@@ -35,12 +35,7 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
       <Show when={adviceOf(props.attempt)}>{(advice) => <p>{advice()}</p>}</Show>
       <Show when={needsReset(props.attempt)}>
         <div class="buttons">
-          <CommandButton
-            lab={lab}
-            at="workspace"
-            class="small primary"
-            command={() => ({ type: 'reset' })}
-          >
+          <CommandButton lab={lab} at="workspace" class="small" command={() => ({ type: 'reset' })}>
             Reset
           </CommandButton>
         </div>
@@ -53,7 +48,7 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
                 <CommandButton
                   lab={lab}
                   at="workspace"
-                  class="small primary"
+                  class="small"
                   onDone={tryAgain}
                   command={() => ({ type: 'select_controller', controller: name() })}
                 >

@@ -135,7 +135,7 @@ export const POLICY: ExperimentLesson = {
       speed: 4,
       layers: ['camera', 'trail'],
       words: [
-        'Set it up shows a dashed square around the tool: this is what the camera sees. Open the panel Camera: it shows the camera image and both channels of the observation. During the run, four diagrams on the right show the value that the policy gives to each possible step.',
+        'Set it up shows a dashed square around the tool: this is what the camera sees. The panel Now shows its image; press it: it grows, with both channels of the observation. During the run, four bars beside it show the value that the policy gives to each possible step.',
       ],
       tasks: [DELIVERED],
     },

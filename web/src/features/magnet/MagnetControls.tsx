@@ -1,4 +1,4 @@
-// Magnet, height and friction beside the curves: the same parameters as in the form.
+// Height and friction beside the curves.
 
 import { For, Show, type JSX } from 'solid-js';
 import { FIELDS } from '../../lab/parameters';
@@ -6,21 +6,15 @@ import type { Parameters, SceneMessage } from '../../net/protocol.gen';
 import { createForm, FieldRow } from '../../lab/ParameterField';
 import type { Session, Trial } from '../../lab/slices';
 
-/** Short names that differ from those in the form. */
-const LABELS: readonly (readonly [name: keyof Parameters, label: string])[] = [
-  ['block_orientation', 'Magnet'],
-  ['tool_height_m', 'Height'],
-  ['friction', 'Friction'],
-];
+/** The parameters that are beside the curves, and not among the others. */
+export const BESIDE_CURVES: readonly (keyof Parameters)[] = ['tool_height_m', 'friction'];
 
-const SHOWN = LABELS.flatMap(([name, label]) =>
-  FIELDS.filter((field) => field.name === name).map((field) => ({ ...field, label })),
-);
+const SHOWN = FIELDS.filter(({ name }) => BESIDE_CURVES.includes(name));
 
 function Controls(props: { lab: Session & Trial; scene: SceneMessage }): JSX.Element {
   const form = createForm(props.lab, () => props.scene);
   return (
-    <div class="magnet-controls" role="group" aria-label="Magnet and friction">
+    <div class="field-columns" role="group" aria-label="Magnet and friction">
       <For each={SHOWN}>{(field) => <FieldRow form={form} field={field} />}</For>
     </div>
   );

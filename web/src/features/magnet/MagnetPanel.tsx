@@ -1,11 +1,13 @@
-// The Magnet tab: what the magnet can do with the current parameters, also while a slider moves.
+// What the magnet can do with the current parameters, also while a slider moves.
 
-import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
+import { Magnet as MagnetIcon } from 'lucide';
 import { createAnswer } from '../../net/requests';
 import { axisLabel, fixed } from '../../ui/format';
 import {
   breakaway,
+  captureSentence,
   directionOf,
   HEIGHTS_M,
   heldRatio,
@@ -19,6 +21,8 @@ import {
 } from './magnet';
 import type { Parameters, PullCurve, ReachCurve } from '../../net/protocol.gen';
 import { CurvePlot } from '../../ui/CurvePlot';
+import { Icon } from '../../ui/Icon';
+import { Segmented } from '../../ui/Segmented';
 import type { CurveContext, Rule } from '../../ui/curve';
 import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
@@ -73,7 +77,7 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
   const pullContext: CurveContext = {
     lines: [
       { label: 'lift', color: 'ink' },
-      { label: 'pull', color: 'magnet' },
+      { label: 'pull', color: 'magnet-line' },
       { label: 'friction', color: 'bead-line' },
     ],
     xRange: () => [0, 100 * shownOffset(pull().data?.capture_m ?? null)],
@@ -109,13 +113,14 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
 
   const reachContext: CurveContext = {
     lines: [
-      { label: 'outer end', color: 'magnet' },
-      { label: 'inner end', color: 'magnet' },
+      { label: 'outer end', color: 'magnet-line' },
+      { label: 'inner end', color: 'magnet-line' },
     ],
     bands: [[0, 1]],
     xRange: () => [1000 * HEIGHTS_M[0], 1000 * HEIGHTS_M[1]],
     yRange: (max) => [0, Math.max(5, 1.1 * max)],
-    xText: (value) => `${value} mm`,
+    // All would touch each other.
+    xText: (value) => (value % 40 === 20 ? `${value} mm` : ''),
     yText: axisLabel,
     shades: () => {
       const end_m = liftOff_m();
@@ -143,7 +148,12 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
   });
 
   return (
-    <div class="magnet" classList={{ refused: error() !== undefined }}>
+    <section class="magnet" classList={{ refused: error() !== undefined }}>
+      <h3>
+        <Icon of={MagnetIcon} />
+        Magnet
+      </h3>
+      <MagnetControls lab={lab} />
       <CurvePlot
         title="Pull"
         unit="of weight"
@@ -152,6 +162,9 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
         context={pullContext}
         data={pullData()}
       />
+      <p class="magnet-sentence" data-testid="magnet-sentence">
+        <Show when={pull().data}>{(curve) => captureSentence(curve().capture_m)}</Show>
+      </p>
       <CurvePlot
         title="Capture by height"
         unit="cm"
@@ -160,31 +173,7 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
         context={reachContext}
         data={reachData()}
       />
-      <div class="magnet-words">
-        <MagnetControls lab={lab} />
-        <fieldset class="choice" role="radiogroup" aria-label="Bead beside the block, toward">
-          <span class="unit">Curves toward</span>
-          <For each={SIDES}>
-            {([id, name]) => (
-              <label>
-                <input
-                  type="radio"
-                  name="magnet-side"
-                  value={id}
-                  checked={side() === id}
-                  onChange={() => setSide(id)}
-                />
-                {name}
-              </label>
-            )}
-          </For>
-        </fieldset>
-        <MagnetFacts
-          parameters={props.parameters}
-          side={side()}
-          pull={pull().data}
-          reach={here().data}
-        />
+      <div class="magnet-said">
         <div role="alert">
           <Show when={error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
         </div>
@@ -192,11 +181,27 @@ function Magnet(props: { lab: Session & Trial; parameters: Parameters }): JSX.El
           <p class="hint">{pointed() ?? hint()}</p>
         </Show>
       </div>
-    </div>
+      <div class="magnet-side">
+        <span>Curves toward</span>
+        <Segmented
+          label="Bead beside the block, toward"
+          name="magnet-side"
+          value={side()}
+          segments={SIDES.map(([value, label]) => ({ value, label }))}
+          onChoose={setSide}
+        />
+      </div>
+      <MagnetFacts
+        parameters={props.parameters}
+        side={side()}
+        pull={pull().data}
+        reach={here().data}
+      />
+    </section>
   );
 }
 
-export default function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
+export function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
   return (
     <Show
       when={props.lab.edits.shown()}

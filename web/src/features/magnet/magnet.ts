@@ -1,6 +1,6 @@
 // What the magnet can do with the current parameters: requests to the server, and answers as text.
 
-import { fixed, millimetres } from '../../ui/format';
+import { centimetres, fixed, millimetres } from '../../ui/format';
 import { storedRange } from '../../lab/parameters';
 import {
   FARTHEST_CAPTURE_M,
@@ -115,6 +115,17 @@ export function captureWords(capture_m: PullCurve['capture_m']): string {
   return outer_m >= FARTHEST_CAPTURE_M
     ? `from ${millimetres(inner_m, digits)}`
     : `${fixed(inner_m * 1000, digits)} to ${millimetres(outer_m)}`;
+}
+
+/** `Between 0.4 and 9.5 cm the pull is stronger than friction: the bead follows.` */
+export function captureSentence(capture_m: PullCurve['capture_m']): string {
+  if (!capture_m) return 'Nowhere is the pull stronger than friction: the bead does not follow.';
+  const [inner_m, outer_m] = capture_m;
+  const where =
+    outer_m >= FARTHEST_CAPTURE_M
+      ? `Beyond ${centimetres(inner_m)}`
+      : `Between ${fixed(100 * inner_m, 1)} and ${centimetres(outer_m)}`;
+  return `${where} the pull is stronger than friction: the bead follows.`;
 }
 
 export function weightWords(curve: PullCurve): string {

@@ -5,48 +5,47 @@ import { fixed } from '../../ui/format';
 import { MOST_EDGES, type PlanLayer, type StateMessage } from '../../net/protocol.gen';
 import { pathWords } from './plannerFacts';
 import { Fact } from '../../ui/Fact';
-import '../../ui/Fact.css';
-import './planner.css';
 
-export function PlannerFacts(props: { plan: PlanLayer; state: StateMessage }): JSX.Element {
-  const edges = (): string => {
-    const count = props.plan.tree.length;
-    return count < MOST_EDGES ? String(count) : `${MOST_EDGES}+`;
-  };
+/** Before the first plan, only their names. */
+export function PlannerFacts(props: {
+  plan: PlanLayer | undefined;
+  state: StateMessage;
+}): JSX.Element {
+  const of = (words: (plan: PlanLayer) => string): string => (props.plan ? words(props.plan) : '–');
   return (
-    <section class="plan-facts" aria-label="ERRT's plan">
-      <dl class="margins">
-        <Fact
-          name="path length"
-          value={pathWords(props.plan.way, props.state.phase)}
-          help="Length of the path that the tool follows"
-          testid="plan-way"
-        />
-        <Fact
-          name="plans"
-          value={String(props.plan.plans)}
-          help="Number of plans since the start of the trial"
-          testid="plan-plans"
-        />
-        <Fact
-          name="nodes tried"
-          value={String(props.plan.attempts)}
-          help="Number of nodes that the last search tried to add to the tree"
-          testid="plan-attempts"
-        />
-        <Fact
-          name="tree size"
-          value={edges()}
-          help="Number of edges in the tree of the last search"
-          testid="plan-tree"
-        />
-        <Fact
-          name="β"
-          value={fixed(props.plan.beta, 2)}
-          help="β: weight of the path length from the root when the search chooses the nearest node"
-          testid="plan-beta"
-        />
-      </dl>
-    </section>
+    <dl class="facts" aria-label="ERRT's plan">
+      <Fact
+        name="Path"
+        value={of(({ way }) => pathWords(way, props.state.phase))}
+        help="Length of the path that the tool follows"
+        testid="plan-way"
+      />
+      <Fact
+        name="Plans"
+        value={of(({ plans }) => String(plans))}
+        help="Number of plans since the start of the trial"
+        testid="plan-plans"
+      />
+      <Fact
+        name="Nodes tried"
+        value={of(({ attempts }) => String(attempts))}
+        help="Number of nodes that the last search tried to add to the tree"
+        testid="plan-attempts"
+      />
+      <Fact
+        name="Tree"
+        value={of(({ tree }) =>
+          tree.length < MOST_EDGES ? String(tree.length) : `${MOST_EDGES}+`,
+        )}
+        help="Number of edges in the tree of the last search"
+        testid="plan-tree"
+      />
+      <Fact
+        name="β"
+        value={of(({ beta }) => fixed(beta, 2))}
+        help="β: weight of the path length from the root when the search chooses the nearest node"
+        testid="plan-beta"
+      />
+    </dl>
   );
 }

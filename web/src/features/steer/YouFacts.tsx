@@ -1,10 +1,11 @@
 // What the controller You needs: how to steer, what is shown, and who fetches the bead.
 
-import { For, Show, createUniqueId, type JSX } from 'solid-js';
+import { Show, type JSX } from 'solid-js';
 import type { ByHand, Panels } from '../../lab/slices';
 import { SIGHTS, type Sight } from '../../lab/sight';
 import { IS_TOUCH } from '../../ui/touch';
 import { followGamepads } from './pollGamepad';
+import { ChoiceField } from '../../ui/fields/fields';
 import { SmallButton } from '../../ui/SmallButton';
 import './steer.css';
 
@@ -12,7 +13,6 @@ const PUSH = { right: 'to the right', up: 'up', left: 'to the left', down: 'down
 
 export function YouFacts(props: { lab: ByHand & Panels }): JSX.Element {
   const { lab } = props;
-  const id = createUniqueId();
   const gamepad = followGamepads(lab);
   const padHelp = (): string => {
     const pad = gamepad.pad();
@@ -46,14 +46,6 @@ export function YouFacts(props: { lab: ByHand & Panels }): JSX.Element {
           </SmallButton>
         </Show>
       </Show>
-      <SmallButton
-        title="Race the controllers on a trial of the day"
-        onClick={() => {
-          lab.showPanel('play');
-        }}
-      >
-        Challenges…
-      </SmallButton>
       <label class="you-approach">
         <input
           type="checkbox"
@@ -65,27 +57,22 @@ export function YouFacts(props: { lab: ByHand & Panels }): JSX.Element {
         />
         Fetch a lost bead by hand, too
       </label>
-      <div class="field">
-        <label for={id}>What you see</label>
-        <select
-          id={id}
-          aria-describedby={`${id}-help`}
-          onChange={(event) => {
-            lab.setSight(event.currentTarget.value as Sight);
-          }}
-        >
-          <For each={SIGHTS}>
-            {([name, label]) => (
-              <option value={name} selected={lab.sight() === name}>
-                {label}
-              </option>
-            )}
-          </For>
-        </select>
-      </div>
-      <p class="hint" id={`${id}-help`}>
-        {help()}
-      </p>
+      <ChoiceField<Sight>
+        label="What you see"
+        value={lab.sight()}
+        options={SIGHTS.map(([name, label]) => [name, label] as const)}
+        onChoose={(sight) => lab.setSight(sight)}
+      />
+      <p class="hint">{help()}</p>
+      <button
+        type="button"
+        title="Race the controllers on a trial of the day"
+        onClick={() => {
+          lab.showPanel('play');
+        }}
+      >
+        Challenges…
+      </button>
     </section>
   );
 }

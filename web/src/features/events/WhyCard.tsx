@@ -1,9 +1,19 @@
 // The story of one event: why it happened, what the camera saw, and buttons to continue from there.
 
+import {
+  For,
+  Match,
+  Show,
+  Switch,
+  createEffect,
+  createMemo,
+  createResource,
+  on,
+  type JSX,
+} from 'solid-js';
+import { ChevronLeft, ChevronRight } from 'lucide';
 import { eventWords } from '../../words/events';
-import { For, Match, Show, Switch, createEffect, createMemo, createResource, on } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
-import type { JSX } from 'solid-js';
 import { get, type Refusal } from '../../net/requests';
 import { centimetres, clock } from '../../ui/format';
 import type { EventMessage, MomentMessage } from '../../net/protocol.gen';
@@ -12,13 +22,17 @@ import { eventTitle, isSameEvent, marginWords, sentence, whatItSaw } from '../..
 import { causeOfEvent } from '../../lab/failure';
 import type { Events, Panels, Session, Trial } from '../../lab/slices';
 import { CloseButton } from '../../ui/CloseButton';
-import './why.css';
 import { addressOf } from '../../net/base';
+import { Icon } from '../../ui/Icon';
+import './why.css';
 
 const BESIDE = [
-  [-1, 'Previous event', '‹'],
-  [1, 'Next event', '›'],
+  [-1, 'Previous event', ChevronLeft],
+  [1, 'Next event', ChevronRight],
 ] as const;
+
+/** The button that led to the next card: it has the focus there again. */
+let ledBy: string | undefined;
 
 /** e on a scale from 0 to twice the limit. The limit is in the middle. */
 function MarginBar(props: { moment: MomentMessage }): JSX.Element {
@@ -58,7 +72,12 @@ function Story(props: {
   );
 }
 
-function Card(props: { lab: Session & Trial & Events & Panels; event: EventMessage }): JSX.Element {
+export function WhyCard(props: {
+  lab: Session & Trial & Events & Panels;
+  event: EventMessage;
+  /** Whether no line of the list above it says what happened. */
+  isAlone?: boolean;
+}): JSX.Element {
   const { lab } = props;
   let card!: HTMLElement;
   const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
@@ -71,9 +90,10 @@ function Card(props: { lab: Session & Trial & Events & Panels; event: EventMessa
     on(
       () => props.event,
       () => {
-        const focused = document.activeElement;
-        const stays = card.contains(focused) && !focused?.matches(':disabled');
-        if (!stays) card.focus();
+        const by = card.querySelector<HTMLElement>(`[aria-label="${ledBy ?? ''}"]:enabled`);
+        ledBy = undefined;
+        (by ?? card).focus({ preventScroll: true });
+        card.parentElement?.scrollIntoView({ block: 'nearest' });
       },
     ),
   );
@@ -86,30 +106,40 @@ function Card(props: { lab: Session & Trial & Events & Panels; event: EventMessa
       class="why"
       role="dialog"
       aria-labelledby="why-title"
+      aria-describedby="why-sentence"
       tabindex="-1"
       onKeyDown={(event) => {
         if (event.key === 'Escape') close();
       }}
     >
       <header>
-        <h2 id="why-title">{eventTitle(props.event)}</h2>
+        <h3 id="why-title">{eventTitle(props.event)}</h3>
         <For each={BESIDE}>
-          {([step, name, sign]) => (
+          {([step, name, icon]) => (
             <button
               type="button"
-              class="bare"
+              class="ghost icon-only"
               aria-label={name}
               disabled={isPast() || !beside(step)}
-              onClick={() => lab.inspect(beside(step))}
+              onClick={() => {
+                ledBy = name;
+                lab.inspect(beside(step));
+              }}
             >
-              {sign}
+              <Icon of={icon} />
             </button>
           )}
         </For>
         <CloseButton label="Close" onClose={close} />
       </header>
       <div class="why-body">
-        <p class="why-sentence">{sentence(eventWords(props.event.what))}</p>
+        <p
+          id="why-sentence"
+          class="why-sentence"
+          classList={{ 'visually-hidden': props.isAlone !== true }}
+        >
+          {sentence(eventWords(props.event.what))}
+        </p>
         <Show when={isPast()}>
           <p class="hint">
             The session was rewound and then took another course; this event is not part of it.
@@ -161,19 +191,5 @@ function Card(props: { lab: Session & Trial & Events & Panels; event: EventMessa
         </CommandButton>
       </footer>
     </section>
-  );
-}
-
-/** Open while an event is inspected. Closing it returns the focus. */
-export function WhyCard(props: { lab: Session & Trial & Events & Panels }): JSX.Element {
-  let from: Element | null = null;
-  createEffect(
-    on(props.lab.inspected, (now, before) => {
-      if (now && !before) from = document.activeElement;
-      if (!now && before && from instanceof HTMLElement) from.focus();
-    }),
-  );
-  return (
-    <Show when={props.lab.inspected()}>{(event) => <Card lab={props.lab} event={event()} />}</Show>
   );
 }

@@ -2,11 +2,11 @@ import { expect, it } from 'vitest';
 import { eventAt } from '../../lab/testingFacts';
 import { page } from 'vitest/browser';
 import { fakeLab, show } from '../../lab/testingLab';
-import { WhyCard } from './WhyCard';
+import { EventsPanel } from './EventsPanel';
 
 it('closes when the trial restarts', async () => {
   const { lab, server } = fakeLab();
-  show(() => <WhyCard lab={lab} />);
+  show(() => <EventsPanel lab={lab} />);
   const card = page.getByRole('dialog');
   await expect.poll(() => lab.scene()).toBeDefined();
   const placed = { code: 'goal_placed', x_m: 0.1, y_m: -0.3 } as const;
