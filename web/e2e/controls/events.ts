@@ -55,7 +55,7 @@ async function ensureGhosts(lab: Lab) {
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.3, 0.5)[0]);
   for (const name of ['RL', 'ERRT']) await lab.label(`Compare ${name}`).uncheck();
   lab.sent = {};
-  await lab.button('Start comparison').click();
+  await lab.page.getByRole('button', { name: /^Compare from/ }).click();
   await until('the request', () => lab.sent.fork);
   await ghostsComputed(lab);
 }
@@ -146,7 +146,7 @@ export const COMPARE: Section = {
     'checkbox Compare RL': { see: isChecked, isToggle: true },
     'checkbox Compare ERRT': { see: isChecked, isToggle: true },
     'checkbox Compare Attractor': { see: isChecked, isToggle: true },
-    'button Start comparison': {
+    'button /^Compare from/': {
       ...sends('fork', setNewGoal),
       // The goal of these ghosts is near. The rows below need ghosts with a longer path.
       after: async (lab) => {
