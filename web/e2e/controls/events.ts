@@ -10,7 +10,7 @@ const COMPUTED_MS = 60_000;
 
 const explanation = async (lab: Lab) =>
   (await dialogs(lab)) && lab.page.locator('#why-title, .why-sentence').allInnerTexts();
-const lessonHeadings = (lab: Lab) => lab.page.locator('.lesson-head h3').count();
+const lessonHeadings = (lab: Lab) => lab.page.locator('.lesson-head h2').count();
 const step = (lab: Lab) => lab.page.locator('.lesson-steps [aria-current=step]').allInnerTexts();
 
 async function close(lab: Lab) {
@@ -194,7 +194,7 @@ const openLesson = async (lab: Lab) => {
 /** Goes to the first step of the lesson and makes a prediction. */
 const predict = async (lab: Lab) => {
   await openLesson(lab);
-  while (await lab.button('Back').isEnabled()) await lab.button('Back').click();
+  while (await lab.button('Back').count()) await lab.button('Back').click();
   await lab.page.getByRole('radio', { name: FIRST_CHOICES }).first().check();
 };
 const goToRun = async (lab: Lab) => {

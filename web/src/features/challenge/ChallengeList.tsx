@@ -29,7 +29,7 @@ function Shelf(props: {
   all: readonly ChallengeSummary[];
 }): JSX.Element {
   return (
-    <section aria-label={props.title}>
+    <section class="challenge-part" aria-label={props.title}>
       <h3>{props.title}</h3>
       <ol class="list">
         <For each={props.all}>
@@ -94,7 +94,7 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
     (lab.catalog.challenges() ?? []).filter((one) => one.period === period);
   return (
     <>
-      <section>
+      <section class="panel-intro">
         <h2>Beat the controllers</h2>
         <p class="hint">
           Do their work: steer the magnet and roll the bead to the goal, against the ghosts of RL,
@@ -107,7 +107,7 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
       <For each={ORDER}>
         {(period) => <Shelf lab={lab} title={PERIOD_LABELS[period]} all={of(period)} />}
       </For>
-      <section aria-label="Your own">
+      <section class="challenge-part" aria-label="Your own">
         <h3>Your own</h3>
         <OwnSeed lab={lab} />
       </section>

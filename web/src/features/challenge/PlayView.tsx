@@ -30,7 +30,7 @@ const LINES = 5;
 
 function Rules(props: { rules: ChallengeReport }): JSX.Element {
   return (
-    <section aria-label="Rules">
+    <section class="challenge-part" aria-label="Rules">
       <h3>Rules</h3>
       <p class="hint">
         The score is the time until the bead rests in the goal circle. Each time that a wall stops
@@ -85,8 +85,9 @@ function Race(props: {
 function Board(props: { board: readonly BoardEntry[] }): JSX.Element {
   return (
     <Show when={props.board.length > 0}>
-      <h3>Board</h3>
-      <ol class="challenge-board">
+      <section class="challenge-part">
+        <h3>Board</h3>
+        <ol class="challenge-board">
         <For each={props.board.slice(0, LINES)}>
           {(line) => (
             <li>
@@ -99,6 +100,7 @@ function Board(props: { board: readonly BoardEntry[] }): JSX.Element {
           )}
         </For>
       </ol>
+      </section>
     </Show>
   );
 }
@@ -149,7 +151,7 @@ function Attempt(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.El
   );
   const rules = (): ChallengeReport | undefined => props.lab.contest.challenge();
   return (
-    <section aria-label="Your attempt">
+    <section class="challenge-part" aria-label="Your attempt">
       <h3>Your attempt</h3>
       <dl class="facts challenge-facts">
         <div>
@@ -175,7 +177,7 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
   });
   return (
     <>
-      <section>
+      <section class="panel-intro">
         <h2>{challengeTitle(props.name)}</h2>
         <Show when={contest.challenge()}>
           {(rules) => (
@@ -191,7 +193,7 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
       </Show>
       <Show when={contest.error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
       <Show when={counts()}>{(attempt) => <Result lab={lab} attempt={attempt()} />}</Show>
-      <section aria-label="Ghosts">
+      <section class="challenge-part" aria-label="Ghosts">
         <h3>To beat</h3>
         <Show
           when={contest.ghosts()}

@@ -20,7 +20,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
   const isFresh = (): boolean => done() === 0 && Object.keys(store.progress().choices).length === 0;
   return (
     <>
-      <section>
+      <section class="panel-intro">
         <h2>Lessons</h2>
         <p class="hint">
           In each one: predict, run one or two experiments, then read why.{' '}
