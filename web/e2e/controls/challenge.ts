@@ -13,7 +13,8 @@ const trial = (lab: Lab) => lab.scene.trial;
 
 async function list(lab: Lab) {
   await lab.panel('Play');
-  if (lab.scene.challenge) await lab.button('All challenges').click();
+  if (lab.scene.challenge)
+    await lab.page.getByRole('button', { name: /^(All challenges|Give up)$/ }).click();
   await until('no challenge', () => !lab.scene.challenge);
   await lab.button('Play this').waitFor();
 }

@@ -88,18 +88,18 @@ function Board(props: { board: readonly BoardEntry[] }): JSX.Element {
       <section class="challenge-part">
         <h3>Board</h3>
         <ol class="challenge-board">
-        <For each={props.board.slice(0, LINES)}>
-          {(line) => (
-            <li>
-              <span>
-                {shownName(line.player)}
-                {line.class === null ? '' : ` (${shownName(line.class)})`}
-              </span>
-              <span class="number">{seconds(line.total_s)}</span>
-            </li>
-          )}
-        </For>
-      </ol>
+          <For each={props.board.slice(0, LINES)}>
+            {(line) => (
+              <li>
+                <span>
+                  {shownName(line.player)}
+                  {line.class === null ? '' : ` (${shownName(line.class)})`}
+                </span>
+                <span class="number">{seconds(line.total_s)}</span>
+              </li>
+            )}
+          </For>
+        </ol>
       </section>
     </Show>
   );
@@ -162,7 +162,10 @@ function Attempt(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.El
           <dt>Lost beads</dt>
           {added(props.attempt.lost_beads, rules()?.lost_bead_s)}
         </div>
-        <Fact name="You see" value={SIGHTS.find(([sight]) => sight === props.lab.sight())?.[1] ?? ''} />
+        <Fact
+          name="You see"
+          value={SIGHTS.find(([sight]) => sight === props.lab.sight())?.[1] ?? ''}
+        />
       </dl>
     </section>
   );
@@ -204,9 +207,7 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
           {(all) => <Race ghosts={all().ghosts} attempt={counts()} />}
         </Show>
       </section>
-      <Show when={contest.attempt()}>
-        {(attempt) => <Attempt lab={lab} attempt={attempt()} />}
-      </Show>
+      <Show when={contest.attempt()}>{(attempt) => <Attempt lab={lab} attempt={attempt()} />}</Show>
       <Show when={contest.challenge()}>
         {(rules) => (
           <>

@@ -40,7 +40,14 @@ const LEAST = 0.01;
 
 /** Numbers that the form asks for: label, accessible name, unit, smallest and greatest value, and the value at first. */
 const NUMBERS = {
-  kick_mn_s: ['Strength', 'Strength of the kick in mN·s', 'mN·s', LEAST, 1000 * MOST_IMPULSE_N_S, '1'],
+  kick_mn_s: [
+    'Strength',
+    'Strength of the kick in mN·s',
+    'mN·s',
+    LEAST,
+    1000 * MOST_IMPULSE_N_S,
+    '1',
+  ],
   push_mn: ['Force', 'Force of the push in mN', 'mN', LEAST, 1000 * MOST_DRIFT_N, '2'],
   push_s: ['Duration', 'Duration of the push in seconds', 's', LEAST, MOST_SECONDS, '1'],
   blind_s: ['Duration', 'Duration of the blindness in seconds', 's', LEAST, MOST_SECONDS, '1'],

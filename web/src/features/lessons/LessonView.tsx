@@ -45,9 +45,7 @@ function Explain(props: Props): JSX.Element {
       <Show
         when={store.result()}
         fallback={
-          <p class="hint">
-            You have done this lesson. Run it again to see your numbers here.
-          </p>
+          <p class="hint">You have done this lesson. Run it again to see your numbers here.</p>
         }
       >
         {(result) => (

@@ -60,7 +60,8 @@ function ExperimentStep(props: Props<Run>): JSX.Element {
     const track = store.track();
     return track !== undefined && task.done(track);
   };
-  const next = (): Task | undefined => (isFollowed() ? tasks.find((one) => !isDone(one)) : undefined);
+  const next = (): Task | undefined =>
+    isFollowed() ? tasks.find((one) => !isDone(one)) : undefined;
   return (
     <>
       <Instructions {...props} to="set up the experiment" />

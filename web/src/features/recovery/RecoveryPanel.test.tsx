@@ -122,6 +122,8 @@ it('shows each controller or the difference of two, and goes from cell to cell b
     .element(page.getByRole('application', { name: /^RL minus ERRT: cells/ }))
     .toBeVisible();
   expect(
-    [...document.querySelectorAll('[role=application] .cell')].map((one) => one.getAttribute('data-kind')),
+    [...document.querySelectorAll('[role=application] .cell')].map((one) =>
+      one.getAttribute('data-kind'),
+    ),
   ).toEqual(['first', 'second']);
 });

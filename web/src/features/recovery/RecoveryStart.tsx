@@ -72,17 +72,17 @@ export function RecoveryStart(props: {
       buttonTitle="Tries each disturbance from the shown moment under each controller, beside the session"
       disabled={!lab.canOperate()}
       beside={
-          <For each={props.report && FILES}>
-            {([ending, name]) => (
-              <a
-                class="button small ghost"
-                href={addressOf(`/api/recoveries/${props.report?.id ?? ''}/map.${ending}`)}
-                download=""
-              >
-                {name}
-              </a>
-            )}
-          </For>
+        <For each={props.report && FILES}>
+          {([ending, name]) => (
+            <a
+              class="button small ghost"
+              href={addressOf(`/api/recoveries/${props.report?.id ?? ''}/map.${ending}`)}
+              download=""
+            >
+              {name}
+            </a>
+          )}
+        </For>
       }
     >
       <div class="form-two">

@@ -1,6 +1,14 @@
 import { expect, it } from 'vitest';
 import type { RecoveryCell, RecoveryReport } from '../../net/protocol.gen';
-import { cellAt, cellWords, difference, look, looksOf, spotWords, squareCentimetres } from './cells';
+import {
+  cellAt,
+  cellWords,
+  difference,
+  look,
+  looksOf,
+  spotWords,
+  squareCentimetres,
+} from './cells';
 import { drawingOf, nextShape } from './shapes';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.3, y_min_m: -0.5, y_max_m: -0.2 };
