@@ -100,7 +100,7 @@ test('compares controllers from a moment on', async ({ lab }) => {
   // The page shows the earlier results of this moment until new ones come: wait for the last one.
   await until('all results', () => lab.comparison?.running === false, COMPUTED_MS);
   await lab.drawn();
-  const rows = panel.getByRole('row');
+  const rows = panel.getByRole('table', { name: /^Results of each/ }).getByRole('row');
   const column = (index: number) =>
     rows.evaluateAll(
       (all, cell) =>
@@ -111,14 +111,14 @@ test('compares controllers from a moment on', async ({ lab }) => {
     'three results',
     async () => {
       const outcomes = await column(1);
-      return outcomes.length === 3 && outcomes.every((text) => /^(delivered|stopped)/.test(text));
+      return outcomes.length === 3 && outcomes.every((text) => /^(delivered|stuck)/.test(text));
     },
     COMPUTED_MS,
   );
   expect((await column(0)).join()).toMatch(/^RL,ERRT,Attractor\s*was in use$/);
   // Evaluations have the same definition.
   for (const axis of ['x', 'y']) {
-    const head = panel.getByRole('columnheader', { name: `max ${axis}`, exact: true });
+    const head = panel.getByRole('rowheader', { name: `Largest ${axis}`, exact: true });
     await expect(head).toHaveAttribute('title', `Largest difference in ${axis} during transport`);
   }
   expect(lab.state.world_hash, 'the session changed').toBe(hash);
@@ -143,7 +143,7 @@ test('compares controllers from a moment on', async ({ lab }) => {
 
   // One controller alone, from the moment shown.
   for (const name of ['RL', 'ERRT']) await lab.label(`Compare ${name}`).uncheck();
-  await lab.button('Start comparison').click();
+  await lab.page.getByRole('button', { name: /^Compare from/ }).click();
   await expect(rows).toHaveCount(2, { timeout: COMPUTED_MS });
   await lab.button('Clear ghosts').click();
 });

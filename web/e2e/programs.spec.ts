@@ -56,7 +56,7 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   await lab.page.getByRole('tab', { name: 'Compare' }).click();
   await expect(lab.page.getByLabel('Compare straight')).toBeChecked();
   await lab.page.getByLabel('Compare RL').uncheck();
-  await lab.button('Start comparison').click();
+  await lab.page.getByRole('button', { name: /^Compare from/ }).click();
   const compared = lab.page.getByRole('row', { name: /^straight/ });
   await expect(compared).toContainText('delivered', { timeout: RUN_MS });
   await lab.view('Evaluate').click();

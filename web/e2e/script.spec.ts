@@ -16,7 +16,7 @@ test('adds, applies, shows and removes a disturbance of the script', async ({ la
 
   await lab.button('Disturb').click();
   await page.getByLabel('Kind of disturbance').selectOption('Move');
-  await page.getByLabel('Time of the disturbance').selectOption('at a time');
+  await page.getByLabel('When the disturbance happens').selectOption('at a time');
   await page.getByLabel('Time in seconds').fill('2');
   // The next click on the plan view picks the place and sets no goal.
   await lab.button('Pick the new place on the map').click();
@@ -30,10 +30,11 @@ test('adds, applies, shows and removes a disturbance of the script', async ({ la
   expect(lab.scene.seed).toBe(seed);
   expect(distance(must(lab.state.goal_m, 'the goal'), goal_m)).toBeLessThan(1e-6);
   expect(distance(await lab.bead(), start), 'the start changed').toBeLessThan(1e-6);
-  const entry = page.getByRole('list', { name: 'Script' }).getByRole('listitem');
-  await expect(entry).toHaveText(/^at 2\.0 s: move to/);
+  const entry = page.getByRole('table', { name: 'Script' }).getByRole('row').last();
+  await expect(entry).toHaveText(/^at 2\.0 s\s*move to/);
 
   await lab.stepUntil('the move', () => lab.state.disturbances === 1, 25);
+  await lab.button('Add random moves…').click();
   const random = page.getByLabel('Number of random moves');
   await random.fill('3');
   // Before the move, its mark is hollow and ahead.
@@ -52,12 +53,12 @@ test('adds, applies, shows and removes a disturbance of the script', async ({ la
   // The restart sets the field again.
   await lab.drawn();
   await random.fill('0');
-  await page.keyboard.press('Enter');
+  await random.press('Enter');
   await until('no random moves', () => lab.scene.scenario.disturbances === 0);
   await lab.drawn();
 
   // A move at once, by keyboard only: the field accepts signs and points key by key.
-  await page.getByLabel('Time of the disturbance').selectOption('now');
+  await page.getByLabel('When the disturbance happens').selectOption('now');
   for (const [label, value] of [
     [X_LABEL, away[0]],
     [Y_LABEL, away[1]],

@@ -13,7 +13,8 @@ const trial = (lab: Lab) => lab.scene.trial;
 
 async function list(lab: Lab) {
   await lab.panel('Play');
-  if (lab.scene.challenge) await lab.button('Other challenges').click();
+  if (lab.scene.challenge)
+    await lab.page.getByRole('button', { name: /^(All challenges|Give up)$/ }).click();
   await until('no challenge', () => !lab.scene.challenge);
   await lab.button('Play this').waitFor();
 }
@@ -76,6 +77,6 @@ export const CHALLENGE: Section = {
     'textbox Your name': { elsewhere: PLAYED },
     'textbox Class (if you wish)': { elsewhere: PLAYED },
     'button Put it on the board': { elsewhere: PLAYED },
-    'button Other challenges': { see: challenge, ready: beginOnce },
+    'button All challenges': { see: challenge, ready: beginOnce },
   },
 };

@@ -10,7 +10,7 @@ const COMPUTED_MS = 60_000;
 
 const explanation = async (lab: Lab) =>
   (await dialogs(lab)) && lab.page.locator('#why-title, .why-sentence').allInnerTexts();
-const lessonHeadings = (lab: Lab) => lab.page.locator('.lesson-head h3').count();
+const lessonHeadings = (lab: Lab) => lab.page.locator('.lesson-head h2').count();
 const step = (lab: Lab) => lab.page.locator('.lesson-steps [aria-current=step]').allInnerTexts();
 
 async function close(lab: Lab) {
@@ -55,7 +55,7 @@ async function ensureGhosts(lab: Lab) {
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.3, 0.5)[0]);
   for (const name of ['RL', 'ERRT']) await lab.label(`Compare ${name}`).uncheck();
   lab.sent = {};
-  await lab.button('Start comparison').click();
+  await lab.page.getByRole('button', { name: /^Compare from/ }).click();
   await until('the request', () => lab.sent.fork);
   await ghostsComputed(lab);
 }
@@ -146,7 +146,7 @@ export const COMPARE: Section = {
     'checkbox Compare RL': { see: isChecked, isToggle: true },
     'checkbox Compare ERRT': { see: isChecked, isToggle: true },
     'checkbox Compare Attractor': { see: isChecked, isToggle: true },
-    'button Start comparison': {
+    'button /^Compare from/': {
       ...sends('fork', setNewGoal),
       // The goal of these ghosts is near. The rows below need ghosts with a longer path.
       after: async (lab) => {
@@ -194,7 +194,7 @@ const openLesson = async (lab: Lab) => {
 /** Goes to the first step of the lesson and makes a prediction. */
 const predict = async (lab: Lab) => {
   await openLesson(lab);
-  while (await lab.button('Back').isEnabled()) await lab.button('Back').click();
+  while (await lab.button('Back').count()) await lab.button('Back').click();
   await lab.page.getByRole('radio', { name: FIRST_CHOICES }).first().check();
 };
 const goToRun = async (lab: Lab) => {

@@ -8,7 +8,7 @@ const card = (lab: Lab) => lab.page.getByTestId('recovery-cell').count();
 const chosen = (lab: Lab) => lab.page.locator('.cell.chosen').first().getAttribute('data-cell');
 
 async function chooseCell(lab: Lab) {
-  await lab.page.locator('.recovery-figure .cell').first().click();
+  await lab.page.locator('[role=application] > .cell').first().click();
   await lab.page.getByTestId('recovery-cell').waitFor();
 }
 
@@ -42,8 +42,12 @@ export const RECOVERY: Section = {
       ready: chooseCell,
       act: async (_input, locator) => locator.press('ArrowRight'),
     },
+    'button /^(ERRT|Attractor) *\\d+ %/': {
+      see: (_lab, locator) => locator.getAttribute('aria-pressed'),
+      ready: (lab) => lab.page.locator('.recovery-thumb').last().click(),
+    },
     'combobox Show': { see: valueOf },
-    'button /^Map recovery from/': {
+    'button /^Map from/': {
       see: maps,
       ready: (lab) => chooseSmall(lab),
       after: isDone,

@@ -31,7 +31,7 @@ const scenes = (lab: Lab) => lab.label('Scene').count();
 const choose = (label: string, option: string) => (lab: Lab) =>
   lab.label(label).selectOption(option);
 const kind = (option: string) => choose('Kind of disturbance', option);
-const time = (option: string) => choose('Time of the disturbance', option);
+const time = (option: string) => choose('When the disturbance happens', option);
 
 /** A field or a select whose value the button of the disturbance bar sends. */
 const sentByButton = (ready: Work, work?: 'choose'): Row => ({
@@ -40,7 +40,7 @@ const sentByButton = (ready: Work, work?: 'choose'): Row => ({
   act: async (input, locator) => {
     if (work === 'choose') await input.choose(locator);
     else await input.type(locator, (await locator.inputValue()) === '0.5' ? '0.7' : '0.5');
-    await input.press(input.page.locator('.disturb button[type=submit]').first());
+    await input.press(input.page.locator('.disturb button[type=submit]'));
   },
 });
 
@@ -71,13 +71,14 @@ export const DISTURB: Section = {
     'spinbutton Duration of the push in seconds': sentByButton(kind('push')),
     'button Blind tracker now': { see: sentDisturbance, ready: kind('blind') },
     'spinbutton Duration of the blindness in seconds': sentByButton(kind('blind')),
-    'combobox Time of the disturbance': { see: valueOf, after: time('now') },
+    'combobox When the disturbance happens': { see: valueOf, after: time('now') },
     'spinbutton Time in seconds': { see: valueOf, ready: time('time') },
     'spinbutton Control step on the way to a goal': { see: valueOf, ready: time('step') },
     'spinbutton x that the bead passes, in metres': { see: valueOf, ready: time('passes') },
     'spinbutton Within this distance of the place in cm': { see: valueOf, ready: time('near') },
     'button Add to script and restart': { see: script, ready: time('time') },
     'button /^Remove and restart: /': { see: script },
+    'button Add random moves…': { see: (lab) => lab.label(RANDOM_MOVES).count() },
     // The restart of the row before sets this field again, a frame after the message.
     [`spinbutton ${RANDOM_MOVES}`]: { ...typed, ready: (lab) => lab.drawn() },
     'button Set and restart': {

@@ -136,7 +136,7 @@ export const challenge: Places = async function* (lab) {
   await lab.button('Step').click();
   await until('it does not count', () => lab.state.attempt?.void);
   yield { name: 'void attempt', panel: lab.page.locator('section.panel.workspace') };
-  await lab.button('Other challenges').click();
+  await lab.page.getByRole('button', { name: /^(All challenges|Give up)$/ }).click();
   await until('no challenge', () => !lab.scene.challenge);
 };
 

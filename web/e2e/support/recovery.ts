@@ -3,13 +3,12 @@
 import { expect } from '@playwright/test';
 import type { Lab } from './lab';
 import { ensureGoal, ensurePaused } from './preconditions';
-import { until } from './wait';
 
 /** Jobs have a low priority, and other tests run at the same time. */
 const MAPPED_MS = 90_000;
 
 export const progress = (lab: Lab) => lab.page.getByTestId('recovery-progress');
-export const cells = (lab: Lab) => lab.page.locator('.recovery-figure .cell');
+export const cells = (lab: Lab) => lab.page.locator('[role=application] > .cell');
 
 /** Chooses a small map: places, ERRT and Attractor. */
 export async function chooseSmall(lab: Lab, repeats = '1') {
@@ -28,15 +27,12 @@ export async function startMap(lab: Lab, repeats?: string) {
   await ensurePaused(lab);
   await ensureGoal(lab);
   await chooseSmall(lab, repeats);
-  await lab.page.getByRole('button', { name: /^Map recovery from/ }).click();
+  await lab.page.getByRole('button', { name: /^Map from/ }).click();
 }
 
 /** The same, when it is done. */
 export async function makeMap(lab: Lab, repeats?: string) {
   await startMap(lab, repeats);
   await isDone(lab);
-  await until(
-    'two figures',
-    async () => (await lab.page.locator('.recovery-figure').count()) === 2,
-  );
+  await expect(lab.page.locator('.recovery-thumb')).toHaveCount(2);
 }

@@ -1,6 +1,7 @@
 // A table whose columns are written once, for their heads and their cells.
 
 import { For, Show, type JSX } from 'solid-js';
+import './Table.css';
 
 export interface Column<R> {
   readonly name: string;
@@ -48,7 +49,7 @@ export function Table<R>(props: {
   testid?: string;
 }): JSX.Element {
   return (
-    <table class={props.class} aria-label={props.label}>
+    <table class={`table ${props.class}`} aria-label={props.label}>
       <thead>
         <tr>
           <Heads columns={props.columns} />

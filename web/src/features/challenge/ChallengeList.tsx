@@ -1,11 +1,13 @@
 // The challenges of the day and of the week, one with any seed, and those that were played before.
 
+import { ChevronRight, Trophy } from 'lucide';
 import { For, Show, createSignal, type JSX } from 'solid-js';
 import { DIFFICULTY_LABELS, PERIOD_LABELS } from '../../lab/challenges';
 import type { Contested, Session } from '../../lab/slices';
 import type { ChallengeSummary, DifficultyName, Period } from '../../net/protocol.gen';
 import { ChoiceField, TextField } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
+import { Icon } from '../../ui/Icon';
 import { counted, seconds } from '../../ui/format';
 import { OwnSession } from './OwnSession';
 import { challengeTitle, seedFault } from './words';
@@ -27,22 +29,25 @@ function Shelf(props: {
   all: readonly ChallengeSummary[];
 }): JSX.Element {
   return (
-    <section aria-label={props.title}>
+    <section class="challenge-part" aria-label={props.title}>
       <h3>{props.title}</h3>
-      <ol class="challenge-list">
+      <ol class="list">
         <For each={props.all}>
           {(one) => (
             <li>
               <button
                 type="button"
-                class="challenge-card"
+                class="list-row"
                 disabled={!props.lab.canOperate()}
                 onClick={() => void props.lab.contest.play(one.name)}
               >
-                <span class="challenge-title">
-                  {one.period ? DIFFICULTY_LABELS[one.difficulty] : challengeTitle(one.name)}
+                <span>
+                  <strong>
+                    {one.period ? DIFFICULTY_LABELS[one.difficulty] : challengeTitle(one.name)}
+                  </strong>
+                  <small class="number">{bestWords(one)}</small>
                 </span>
-                <span class="challenge-best number">{bestWords(one)}</span>
+                <Icon of={ChevronRight} />
               </button>
             </li>
           )}
@@ -62,7 +67,7 @@ function OwnSeed(props: { lab: Session & Contested }): JSX.Element {
       class="challenge-fields"
       send={() => props.lab.contest.play(`${difficulty()}-${word()}`)}
       button="Play this"
-      buttonClass="small"
+      buttonClass=""
       disabled={!props.lab.canOperate()}
     >
       <ChoiceField
@@ -89,30 +94,32 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
     (lab.catalog.challenges() ?? []).filter((one) => one.period === period);
   return (
     <>
-      <p>
-        Do the controllers’ work: steer the magnet and roll the bead to the goal, against the ghosts
-        of RL, ERRT and Attractor. Each challenge takes less than a minute.
-      </p>
+      <section class="panel-intro">
+        <h2>Beat the controllers</h2>
+        <p class="hint">
+          Do their work: steer the magnet and roll the bead to the goal, against the ghosts of RL,
+          ERRT and Attractor. Each challenge takes less than a minute.
+        </p>
+      </section>
       <Show when={!lab.canOperate()}>
         <OwnSession />
       </Show>
-      <div class="challenge-columns">
-        <For each={ORDER}>
-          {(period) => <Shelf lab={lab} title={PERIOD_LABELS[period]} all={of(period)} />}
-        </For>
-        <section aria-label="Your own">
-          <h3>Your own</h3>
-          <OwnSeed lab={lab} />
-        </section>
-        <Show when={of(null).length > 0}>
-          <Shelf lab={lab} title="Earlier" all={of(null)} />
-        </Show>
-      </div>
-      <p>
-        <a class="button small" href={addressOf('/board')} target="_blank" rel="noopener">
+      <For each={ORDER}>
+        {(period) => <Shelf lab={lab} title={PERIOD_LABELS[period]} all={of(period)} />}
+      </For>
+      <section class="challenge-part" aria-label="Your own">
+        <h3>Your own</h3>
+        <OwnSeed lab={lab} />
+      </section>
+      <Show when={of(null).length > 0}>
+        <Shelf lab={lab} title="Earlier" all={of(null)} />
+      </Show>
+      <footer class="inspector-foot">
+        <a class="button" href={addressOf('/board')} target="_blank" rel="noopener">
+          <Icon of={Trophy} />
           All boards
         </a>
-      </p>
+      </footer>
     </>
   );
 }

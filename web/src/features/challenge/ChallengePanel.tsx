@@ -8,10 +8,8 @@ import './challenge.css';
 export default function ChallengePanel(props: { lab: ChallengeLab }): JSX.Element {
   const { lab } = props;
   return (
-    <div class="challenge">
-      <Show when={lab.contest.name()} fallback={<ChallengeList lab={lab} />} keyed>
-        {(name) => <PlayView lab={lab} name={name} />}
-      </Show>
-    </div>
+    <Show when={lab.contest.name()} fallback={<ChallengeList lab={lab} />} keyed>
+      {(name) => <PlayView lab={lab} name={name} />}
+    </Show>
   );
 }

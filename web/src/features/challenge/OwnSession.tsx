@@ -20,9 +20,9 @@ export function OwnSession(props: { challenge?: string }): JSX.Element {
     return name === undefined ? '' : playQuery(name);
   };
   return (
-    <p class="own-session">
-      Another browser operates this session, and you watch.{' '}
-      <a class="button small" href={addressOf(`/s/${newSession()}${query()}`)}>
+    <p class="challenge-note">
+      Another browser operates this session, and you watch.
+      <a class="button" href={addressOf(`/s/${newSession()}${query()}`)}>
         Play in a session of your own
       </a>
     </p>

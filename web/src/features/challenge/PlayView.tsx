@@ -1,34 +1,38 @@
 // The challenge that is being played: rules, ghosts, the result, and the board.
 
+import { RotateCcw } from 'lucide';
 import { For, Show, createMemo, type JSX } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
 import { boardPath, ghostName, playQuery } from '../../lab/challenges';
-import { isOver } from '../../lab/contest';
-import type { Contested, Session, Trial } from '../../lab/slices';
+import { isAtStake, isOver } from '../../lab/contest';
+import { SIGHTS } from '../../lab/sight';
+import type { ByHand, Contested, Session, Trial } from '../../lab/slices';
 import type {
   AttemptStanding,
   BoardEntry,
   ChallengeReport,
   GhostMessage,
 } from '../../net/protocol.gen';
+import { Fact } from '../../ui/Fact';
 import { seconds } from '../../ui/format';
+import { Glyph } from '../../ui/Glyph';
+import { Icon } from '../../ui/Icon';
 import { OwnSession } from './OwnSession';
 import { SignForm } from './SignForm';
 import { DIFFICULTY_HELP, challengeTitle, lossWords, sumWords, verdict } from './words';
 import { shownName } from '../../ui/name';
 import { addressOf } from '../../net/base';
 
-export type ChallengeLab = Session & Trial & Contested;
+export type ChallengeLab = Session & Trial & Contested & ByHand;
 
 /** Lines of the board. */
 const LINES = 5;
 
 function Rules(props: { rules: ChallengeReport }): JSX.Element {
   return (
-    <section aria-label="Rules">
+    <section class="challenge-part" aria-label="Rules">
       <h3>Rules</h3>
-      <p>{DIFFICULTY_HELP[props.rules.difficulty]}</p>
-      <p>
+      <p class="hint">
         The score is the time until the bead rests in the goal circle. Each time that a wall stops
         the magnet adds {props.rules.wall_s} s. Each bead that the arm has to fetch again adds{' '}
         {props.rules.lost_bead_s} s, except after it was pulled away. Time is up after{' '}
@@ -58,17 +62,16 @@ function Race(props: {
     );
   });
   return (
-    <table class="challenge-race">
+    <table class="table challenge-race">
       <caption class="visually-hidden">Scores on this challenge</caption>
       <tbody>
         <For each={lines()}>
           {(line) => (
             <tr classList={{ own: line.isOwn }}>
               <th scope="row">
-                <span class="swatch" style={{ background: `var(--${line.controller})` }} />
-                {line.name}
+                <Glyph of={line.controller} /> {line.name}
               </th>
-              <td class="number">
+              <td classList={{ late: line.total_s === null }}>
                 {line.total_s === null ? 'not delivered' : seconds(line.total_s)}
               </td>
             </tr>
@@ -82,20 +85,22 @@ function Race(props: {
 function Board(props: { board: readonly BoardEntry[] }): JSX.Element {
   return (
     <Show when={props.board.length > 0}>
-      <h3>Board</h3>
-      <ol class="challenge-board">
-        <For each={props.board.slice(0, LINES)}>
-          {(line) => (
-            <li>
-              <span>
-                {shownName(line.player)}
-                {line.class === null ? '' : ` (${shownName(line.class)})`}
-              </span>
-              <span class="number">{seconds(line.total_s)}</span>
-            </li>
-          )}
-        </For>
-      </ol>
+      <section class="challenge-part">
+        <h3>Board</h3>
+        <ol class="challenge-board">
+          <For each={props.board.slice(0, LINES)}>
+            {(line) => (
+              <li>
+                <span>
+                  {shownName(line.player)}
+                  {line.class === null ? '' : ` (${shownName(line.class)})`}
+                </span>
+                <span class="number">{seconds(line.total_s)}</span>
+              </li>
+            )}
+          </For>
+        </ol>
+      </section>
     </Show>
   );
 }
@@ -122,7 +127,6 @@ function Result(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.Ele
           <CommandButton
             lab={lab}
             at="playback"
-            class="small"
             title="Rewinds the session to the beginning of this time. The attempt stays as it is."
             command={() => ({ type: 'rewind', tick: lost().from_tick })}
           >
@@ -137,6 +141,36 @@ function Result(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.Ele
   );
 }
 
+/** What the clock counts beside the time. */
+function Attempt(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.Element {
+  const added = (count: number, each_s: number | undefined): JSX.Element => (
+    <dd class="number">
+      {count}
+      <Show when={count > 0 && each_s}>{(s) => <span> +{count * s()} s</span>}</Show>
+    </dd>
+  );
+  const rules = (): ChallengeReport | undefined => props.lab.contest.challenge();
+  return (
+    <section class="challenge-part" aria-label="Your attempt">
+      <h3>Your attempt</h3>
+      <dl class="facts challenge-facts">
+        <div>
+          <dt>Wall stops</dt>
+          {added(props.attempt.walls, rules()?.wall_s)}
+        </div>
+        <div>
+          <dt>Lost beads</dt>
+          {added(props.attempt.lost_beads, rules()?.lost_bead_s)}
+        </div>
+        <Fact
+          name="You see"
+          value={SIGHTS.find(([sight]) => sight === props.lab.sight())?.[1] ?? ''}
+        />
+      </dl>
+    </section>
+  );
+}
+
 export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Element {
   const { lab } = props;
   const { contest } = lab;
@@ -146,64 +180,80 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
   });
   return (
     <>
-      <div class="challenge-head">
-        <h3>{challengeTitle(props.name)}</h3>
-        <CommandButton
-          lab={lab}
-          at="playback"
-          class="small"
-          title="Begins this challenge again"
-          command={() => ({ type: 'play_challenge', challenge: props.name })}
+      <section class="panel-intro">
+        <h2>{challengeTitle(props.name)}</h2>
+        <Show when={contest.challenge()}>
+          {(rules) => (
+            <p class="hint">
+              Carry the bead to the green ring. A wall stop adds {rules().wall_s} s, a lost bead{' '}
+              {rules().lost_bead_s} s. {DIFFICULTY_HELP[rules().difficulty]}
+            </p>
+          )}
+        </Show>
+      </section>
+      <Show when={!lab.canOperate()}>
+        <OwnSession challenge={props.name} />
+      </Show>
+      <Show when={contest.error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
+      <Show when={counts()}>{(attempt) => <Result lab={lab} attempt={attempt()} />}</Show>
+      <section class="challenge-part" aria-label="Ghosts">
+        <h3>To beat</h3>
+        <Show
+          when={contest.ghosts()}
+          fallback={
+            <p class="hint">The controllers run this challenge now; their ghosts come soon.</p>
+          }
         >
-          From the start
-        </CommandButton>
+          {(all) => <Race ghosts={all().ghosts} attempt={counts()} />}
+        </Show>
+      </section>
+      <Show when={contest.attempt()}>{(attempt) => <Attempt lab={lab} attempt={attempt()} />}</Show>
+      <Show when={contest.challenge()}>
+        {(rules) => (
+          <>
+            <Board board={rules().board} />
+            <Rules rules={rules()} />
+          </>
+        )}
+      </Show>
+      <footer class="inspector-foot">
         <CommandButton
           lab={lab}
           at="playback"
-          class="small"
-          title="Ends the challenge; the map stays"
+          title="Ends the challenge and shows the others; the map stays"
           command={() => {
             const map = lab.scene()?.map;
             return map === undefined ? undefined : { type: 'load_scenario', map, controller: 'rl' };
           }}
         >
-          Other challenges
+          {isAtStake(lab) ? 'Give up' : 'All challenges'}
+        </CommandButton>
+        <CommandButton
+          lab={lab}
+          at="playback"
+          class="ghost icon-only"
+          aria-label="From the start"
+          title="Begins this challenge again"
+          command={() => ({ type: 'play_challenge', challenge: props.name })}
+        >
+          <Icon of={RotateCcw} />
         </CommandButton>
         <a
-          class="button small"
+          class="button ghost small"
           href={playQuery(props.name)}
           title="Opens this challenge; send it to others"
         >
           Link
         </a>
         <a
-          class="button small"
+          class="button ghost small"
           href={addressOf(boardPath(props.name))}
           target="_blank"
           rel="noopener"
         >
           Board
         </a>
-      </div>
-      <Show when={!lab.canOperate()}>
-        <OwnSession challenge={props.name} />
-      </Show>
-      <Show when={contest.error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
-      <div class="challenge-columns">
-        <Show when={counts()}>{(attempt) => <Result lab={lab} attempt={attempt()} />}</Show>
-        <section aria-label="Ghosts">
-          <Show
-            when={contest.ghosts()}
-            fallback={
-              <p class="hint">The controllers run this challenge now; their ghosts come soon.</p>
-            }
-          >
-            {(all) => <Race ghosts={all().ghosts} attempt={counts()} />}
-          </Show>
-          <Show when={contest.challenge()?.board}>{(board) => <Board board={board()} />}</Show>
-        </section>
-        <Show when={contest.challenge()}>{(rules) => <Rules rules={rules()} />}</Show>
-      </div>
+      </footer>
     </>
   );
 }

@@ -25,7 +25,6 @@ export function SignForm(props: { lab: Contested }): JSX.Element {
           class="challenge-fields"
           send={send}
           button="Put it on the board"
-          buttonClass="small primary"
           pending="Checking…"
           disabled={false}
         >

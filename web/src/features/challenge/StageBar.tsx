@@ -7,7 +7,7 @@ import { isOver } from '../../lab/contest';
 import type { ByHand, Contested, Panels, Session, Trial } from '../../lab/slices';
 import type { AttemptStanding } from '../../net/protocol.gen';
 import { seconds } from '../../ui/format';
-import { challengeTitle, penaltyWords, verdict } from './words';
+import { penaltyWords, verdict } from './words';
 import './stage.css';
 
 type StageLab = Session & Trial & Contested & Panels & ByHand;
@@ -97,8 +97,7 @@ export function StageBar(props: {
             </Match>
             <Match when={waits()}>
               <p>
-                <strong>{challengeTitle(contest.name() ?? '')}</strong> Roll the bead into the green
-                circle. The clock starts when you steer, or press Start.
+                Roll the bead into the green ring. The clock starts when you steer, or press Start.
               </p>
               <button
                 type="button"
@@ -116,10 +115,10 @@ export function StageBar(props: {
               <p class="contest-clock number" data-testid="contest-clock">
                 {seconds(attempt().total_s)}
               </p>
-              <p class="number">{penaltyWords(attempt(), contest.challenge())}</p>
-              <Show when={lab.state()?.phase.code === 'approaching'}>
-                <p>The arm fetches the bead.</p>
-              </Show>
+              <p class="contest-penalties number">{penaltyWords(attempt(), contest.challenge())}</p>
+              <p class="contest-fetching">
+                {lab.state()?.phase.code === 'approaching' ? 'The arm fetches the bead.' : ''}
+              </p>
             </Match>
           </Switch>
         </section>

@@ -6,7 +6,7 @@ import ComparePanel from './ComparePanel';
 it('compares the chosen controllers, and shows why the server refuses it', async () => {
   const { lab, server } = fakeLab();
   show(() => <ComparePanel lab={lab} />);
-  const start = page.getByRole('button', { name: 'Start comparison' });
+  const start = page.getByRole('button', { name: /^Compare from/ });
   await expect.element(start).toBeEnabled();
   await page.getByLabelText('Compare RL').click();
   await start.click();

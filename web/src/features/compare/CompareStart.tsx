@@ -1,5 +1,6 @@
 // Chooses controllers and starts a comparison.
 
+import { GitCompare } from 'lucide';
 import { Show, createSignal, type JSX } from 'solid-js';
 import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
 import { isFailure } from '../../lab/failure';
@@ -21,37 +22,41 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
   };
   /** Where the branches begin. */
   const from = (): number | undefined => (isOver() ? attemptStart(lab) : lab.state()?.tick);
+  const from_s = (): number => (from() ?? 0) * (lab.scene()?.tick_s ?? 0);
   const title = (): string => {
     if (from() === undefined) return START_NOT_KEPT;
     const moment = isOver() ? 'the moment at which the goal was set' : 'this moment';
     return `Continues from ${moment} under each controller, without changing the session`;
   };
+  const hasResults = (): boolean => lab.comparison.shown() !== undefined;
   return (
     <Form
-      class="compare-start"
-      isInline
+      class={`compare-start ${hasResults() ? '' : 'first'}`}
       send={async () => {
         const tick = from();
         if (tick === undefined) return;
         await lab.send('compare', { type: 'fork', tick, controllers: wanted() });
       }}
-      button="Start comparison"
-      buttonClass="small primary"
+      button={hasResults() ? 'Compare from here' : `Compare from ${clock(from_s())}`}
+      {...(hasResults() && { icon: GitCompare })}
       buttonTitle={title()}
       disabled={!lab.canOperate() || from() === undefined}
       why={from() === undefined ? START_NOT_KEPT : undefined}
+      endClass={hasResults() ? 'inspector-foot' : undefined}
       beside={
-        <span class="compare-of" role="status">
-          <Show when={lab.comparison.shown()}>
-            {(comparison) => (
-              <>
-                from {clock(comparison().sim_time_s)}
-                <Show when={comparison().running}>, running …</Show>
-                <Show when={comparison().failed}>{(reason) => <>: failed: {reason()}</>}</Show>
-              </>
-            )}
-          </Show>
-        </span>
+        <Show when={hasResults()}>
+          <button
+            type="button"
+            class="ghost"
+            aria-label="Clear ghosts"
+            title="Takes the ghosts off the map"
+            onClick={() => {
+              lab.comparison.hide();
+            }}
+          >
+            Clear
+          </button>
+        </Show>
       }
     >
       <CheckField {...field} verb="Compare" />

@@ -1,5 +1,6 @@
 // Disturbances by button: a kick, a push, a move, a blind tracker. They happen now or are added to the script.
 
+import { Hand, ListPlus } from 'lucide';
 import { For, Show, createSignal, onCleanup, type JSX } from 'solid-js';
 import {
   blind,
@@ -37,16 +38,23 @@ import './disturb.css';
 /** Of a strength, force or duration, in the shown unit. */
 const LEAST = 0.01;
 
-/** Numbers that the form asks for: accessible name, unit, smallest and greatest value, and the value at first. */
+/** Numbers that the form asks for: label, accessible name, unit, smallest and greatest value, and the value at first. */
 const NUMBERS = {
-  kick_mn_s: ['Strength of the kick in mN·s', 'mN·s', LEAST, 1000 * MOST_IMPULSE_N_S, '1'],
-  push_mn: ['Force of the push in mN', 'mN', LEAST, 1000 * MOST_DRIFT_N, '2'],
-  push_s: ['Duration of the push in seconds', 's', LEAST, MOST_SECONDS, '1'],
-  blind_s: ['Duration of the blindness in seconds', 's', LEAST, MOST_SECONDS, '1'],
-  time_s: ['Time in seconds', 's', 0, 3600, '5'],
-  step: ['Control step on the way to a goal', 'of ¼ s', 1, MOST_STEPS, '30'],
-  passes_m: ['x that the bead passes, in metres', 'm', -10, 10, '0'],
-  within_cm: ['Within this distance of the place in cm', 'cm', 0.1, 100, '2'],
+  kick_mn_s: [
+    'Strength',
+    'Strength of the kick in mN·s',
+    'mN·s',
+    LEAST,
+    1000 * MOST_IMPULSE_N_S,
+    '1',
+  ],
+  push_mn: ['Force', 'Force of the push in mN', 'mN', LEAST, 1000 * MOST_DRIFT_N, '2'],
+  push_s: ['Duration', 'Duration of the push in seconds', 's', LEAST, MOST_SECONDS, '1'],
+  blind_s: ['Duration', 'Duration of the blindness in seconds', 's', LEAST, MOST_SECONDS, '1'],
+  time_s: ['Time', 'Time in seconds', 's', 0, 3600, '5'],
+  step: ['Step', 'Control step on the way to a goal', 'of ¼ s', 1, MOST_STEPS, '30'],
+  passes_m: ['x', 'x that the bead passes, in metres', 'm', -10, 10, '0'],
+  within_cm: ['Within', 'Within this distance of the place in cm', 'cm', 0.1, 100, '2'],
 } as const;
 type NumberName = keyof typeof NUMBERS;
 
@@ -78,7 +86,7 @@ export default function DisturbPanel(
     props.picker.cancel();
   });
 
-  const text = (name: NumberName): string => typed()[name] ?? NUMBERS[name][4];
+  const text = (name: NumberName): string => typed()[name] ?? NUMBERS[name][5];
   const number = (name: NumberName): number => numberOf(text(name));
   const disabled = (): boolean => !lab.canOperate();
   const isFull = (): boolean => (lab.scene()?.scenario.script.length ?? 0) >= SCRIPT_LIMIT;
@@ -135,13 +143,11 @@ export default function DisturbPanel(
   const numbers = (choice: () => Kind | Time): JSX.Element => (
     <For each={NUMBERS_OF[choice()]}>
       {(name) => {
-        const [label, unit, min, max] = NUMBERS[name];
-        const isLabelled = name === 'within_cm';
+        const [label, fullName, unit, min, max] = NUMBERS[name];
         return (
           <NumberField
-            hideLabel={!isLabelled}
-            label={isLabelled ? 'within' : label}
-            fullName={label}
+            label={label}
+            fullName={fullName}
             unit={unit}
             min={min}
             max={max}
@@ -158,13 +164,13 @@ export default function DisturbPanel(
   );
 
   return (
-    <div class="disturb" role="group" aria-label="Disturb the bead">
+    <>
+      <p>Drag the bead on the map, or do it exactly:</p>
       <Form
-        class="disturb-form"
-        isInline
+        class="disturb"
         send={submit}
         button={button()}
-        buttonClass="primary"
+        icon={time() === 'now' ? Hand : ListPlus}
         buttonTitle={
           time() === 'now'
             ? undefined
@@ -173,54 +179,56 @@ export default function DisturbPanel(
         disabled={disabled() || (time() !== 'now' && isFull())}
         why={isFull() ? `The script is full: ${SCRIPT_LIMIT} entries.` : undefined}
       >
-        <ChoiceField
-          hideLabel
-          label="Kind of disturbance"
-          options={KINDS}
-          value={kind()}
-          disabled={disabled()}
-          onChoose={setKind}
-        />
-        {numbers(kind)}
-        <Show when={kind() === 'move'}>
-          <PlaceFields
-            name="the new place"
-            value={target()}
-            disabled={disabled()}
-            picker={props.picker}
-            onValue={setTarget}
-          />
-        </Show>
-        <Show when={kind() === 'kick' || kind() === 'push'}>
+        <div class="form-two" role="group" aria-label="Disturb the bead">
           <ChoiceField
-            hideLabel
-            label="Direction of kick and push"
-            options={DIRECTIONS}
-            value={direction()}
+            label="Kind"
+            fullName="Kind of disturbance"
+            options={KINDS}
+            value={kind()}
             disabled={disabled()}
-            onChoose={setDirection}
+            onChoose={setKind}
           />
-        </Show>
-        <ChoiceField
-          hideLabel
-          label="Time of the disturbance"
-          options={TIMES}
-          value={time()}
-          disabled={disabled()}
-          onChoose={setTime}
-        />
-        <Show when={time() === 'near'}>
-          <PlaceFields
-            name="the place to reach"
-            value={near()}
+          {numbers(kind)}
+          <Show when={kind() === 'move'}>
+            <PlaceFields
+              name="the new place"
+              value={target()}
+              disabled={disabled()}
+              picker={props.picker}
+              onValue={setTarget}
+            />
+          </Show>
+          <Show when={kind() === 'kick' || kind() === 'push'}>
+            <ChoiceField
+              label="Direction"
+              fullName="Direction of kick and push"
+              options={DIRECTIONS}
+              value={direction()}
+              disabled={disabled()}
+              onChoose={setDirection}
+            />
+          </Show>
+          <ChoiceField
+            label="When"
+            fullName="When the disturbance happens"
+            options={TIMES}
+            value={time()}
             disabled={disabled()}
-            picker={props.picker}
-            onValue={setNear}
+            onChoose={setTime}
           />
-        </Show>
-        {numbers(time)}
+          <Show when={time() === 'near'}>
+            <PlaceFields
+              name="the place to reach"
+              value={near()}
+              disabled={disabled()}
+              picker={props.picker}
+              onValue={setNear}
+            />
+          </Show>
+          {numbers(time)}
+        </div>
       </Form>
       <ScriptList lab={lab} />
-    </div>
+    </>
   );
 }

@@ -1,9 +1,11 @@
 // A place of a disturbance: its coordinates, which can be picked in the plan view.
 
+import { Crosshair } from 'lucide';
 import { For, onCleanup, type JSX } from 'solid-js';
 import type { Vec2 } from '../../lab/geometry';
 import type { Picker } from '../../plan/interaction';
 import { NumberField } from '../../ui/fields/fields';
+import { Icon } from '../../ui/Icon';
 import { SmallButton } from '../../ui/SmallButton';
 
 /** As typed. */
@@ -37,7 +39,7 @@ export function PlaceFields(props: {
     if (isPicking()) props.picker.cancel();
   });
   return (
-    <>
+    <div class="place wide">
       <For each={AXES}>
         {(axis) => (
           <NumberField
@@ -69,8 +71,9 @@ export function PlaceFields(props: {
           document.querySelector<HTMLElement>('.stage-canvas')?.focus();
         }}
       >
+        <Icon of={Crosshair} />
         Pick
       </SmallButton>
-    </>
+    </div>
   );
 }

@@ -1,12 +1,13 @@
 // One lesson, one step at a time: predict, run, explain.
 
+import { ArrowLeft } from 'lucide';
 import { For, Match, Show, Switch, createEffect, on, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import { Fact } from '../../ui/Fact';
+import { Icon } from '../../ui/Icon';
 import type { Lesson } from './lesson';
 import { RunStep } from './RunStep';
 import type { Lessons } from './store';
-import { SmallButton } from '../../ui/SmallButton';
 
 interface Props {
   readonly store: Lessons;
@@ -44,9 +45,7 @@ function Explain(props: Props): JSX.Element {
       <Show
         when={store.result()}
         fallback={
-          <p class="lesson-note">
-            You have done this lesson. Run it again to see your numbers here.
-          </p>
+          <p class="hint">You have done this lesson. Run it again to see your numbers here.</p>
         }
       >
         {(result) => (
@@ -80,65 +79,86 @@ function Explain(props: Props): JSX.Element {
 export function LessonView(props: Props & { lab: Session & Trial }): JSX.Element {
   const { lab, store, lesson } = props;
   let heading!: HTMLHeadingElement;
-  let body!: HTMLDivElement;
+  const chosen = (): string => store.progress().choices[lesson.id] ?? '';
+  const why = (): string | undefined => {
+    if (isLast() || store.mayGoOn()) return undefined;
+    return store.step() === 0 ? 'Choose a prediction first' : 'Do the tasks first';
+  };
   const runs = lesson.runs.map((_, index) => (lesson.runs.length > 1 ? `Run ${index + 1}` : 'Run'));
   const names = ['Predict', ...runs, 'Explain'];
   const isLast = (): boolean => store.step() === names.length - 1;
+  const foot = (left?: JSX.Element): JSX.Element => (
+    <footer class="inspector-foot lesson-foot">
+      {left}
+      <button
+        type="button"
+        classList={{ primary: isLast() || store.mayGoOn() }}
+        disabled={!isLast() && !store.mayGoOn()}
+        title={why()}
+        onClick={() => (isLast() ? store.close() : store.go(store.step() + 1))}
+      >
+        {isLast() ? 'Finish' : 'Next'}
+      </button>
+    </footer>
+  );
   createEffect(
     on(store.step, () => {
-      body.scrollTop = 0;
       heading.focus({ preventScroll: true });
+      heading.closest('.inspector-panel')?.scrollTo(0, 0);
     }),
   );
   return (
     <>
       <header class="lesson-head">
-        <button
-          type="button"
-          class="bare"
-          aria-label="All lessons"
-          title="All lessons"
-          onClick={store.close}
-        >
-          ‹
-        </button>
-        <h3>{lesson.title}</h3>
+        <div>
+          <button type="button" class="ghost small" onClick={store.close}>
+            <Icon of={ArrowLeft} />
+            All lessons
+          </button>
+          <Show when={store.step() > 0}>
+            <button type="button" class="ghost small" onClick={() => store.go(store.step() - 1)}>
+              Back
+            </button>
+          </Show>
+        </div>
+        <h2>{lesson.title}</h2>
+        <ol class="lesson-steps" aria-label="Steps">
+          <For each={names}>
+            {(name, index) => (
+              <li
+                classList={{ done: index() < store.step() }}
+                aria-current={store.step() === index() ? 'step' : undefined}
+              >
+                {index() + 1} {name}
+              </li>
+            )}
+          </For>
+        </ol>
       </header>
-      <ol class="lesson-steps" aria-label="Steps">
-        <For each={names}>
-          {(name, index) => (
-            <li aria-current={store.step() === index() ? 'step' : undefined}>{name}</li>
+      <h3 ref={heading} class="visually-hidden" tabindex="-1">
+        {names[store.step()]}
+      </h3>
+      <Switch>
+        <Match when={store.step() === 0}>
+          <Predict store={store} lesson={lesson} />
+          {foot()}
+        </Match>
+        <Match when={store.run()} keyed>
+          {(run) => (
+            <RunStep
+              lab={lab}
+              store={store}
+              run={run}
+              prediction={lesson.choices[chosen()]}
+              foot={foot}
+            />
           )}
-        </For>
-      </ol>
-      <div ref={body} class="lesson-body">
-        <h4 ref={heading} class="visually-hidden" tabindex="-1">
-          {names[store.step()]}
-        </h4>
-        <Switch>
-          <Match when={store.step() === 0}>
-            <Predict store={store} lesson={lesson} />
-          </Match>
-          <Match when={store.run()} keyed>
-            {(run) => <RunStep lab={lab} store={store} run={run} />}
-          </Match>
-          <Match when={isLast()}>
-            <Explain store={store} lesson={lesson} />
-          </Match>
-        </Switch>
-      </div>
-      <footer class="lesson-foot">
-        <SmallButton disabled={store.step() === 0} onClick={() => store.go(store.step() - 1)}>
-          Back
-        </SmallButton>
-        <SmallButton
-          classList={{ primary: isLast() || store.mayGoOn() }}
-          disabled={!isLast() && !store.mayGoOn()}
-          onClick={() => (isLast() ? store.close() : store.go(store.step() + 1))}
-        >
-          {isLast() ? 'Finish' : 'Next'}
-        </SmallButton>
-      </footer>
+        </Match>
+        <Match when={isLast()}>
+          <Explain store={store} lesson={lesson} />
+          {foot()}
+        </Match>
+      </Switch>
     </>
   );
 }

@@ -1,6 +1,8 @@
 // The list of lessons, or the open lesson.
 
+import { ChevronRight, CircleCheck } from 'lucide';
 import { For, Show, onMount, untrack, type JSX } from 'solid-js';
+import { Icon } from '../../ui/Icon';
 import { LessonView } from './LessonView';
 import { LESSONS } from './lessons';
 import { lessonsOf, type Lessons, type LessonsLab } from './store';
@@ -18,13 +20,16 @@ function LessonList(props: { store: Lessons }): JSX.Element {
   const isFresh = (): boolean => done() === 0 && Object.keys(store.progress().choices).length === 0;
   return (
     <>
-      <p class="lessons-intro">
-        In each lesson: predict, run one or two experiments, then read why.{' '}
-        <span class="number">
-          {done()} of {LESSONS.length} done.
-        </span>
-      </p>
-      <ol class="lesson-list">
+      <section class="panel-intro">
+        <h2>Lessons</h2>
+        <p class="hint">
+          In each one: predict, run one or two experiments, then read why.{' '}
+          <span class="number">
+            {done()} of {LESSONS.length} done.
+          </span>
+        </p>
+      </section>
+      <ol class="list">
         <For each={LESSONS}>
           {(lesson) => {
             const isDone = (): boolean => store.progress().done.includes(lesson.id);
@@ -33,22 +38,23 @@ function LessonList(props: { store: Lessons }): JSX.Element {
                 <button
                   ref={(card) => cards.set(lesson.id, card)}
                   type="button"
-                  class="lesson-card"
-                  classList={{ done: isDone() }}
+                  class="list-row"
                   onClick={() => store.open(lesson)}
                 >
-                  <span class="lesson-title">
-                    {lesson.title}
-                    <Show when={isDone()}>
-                      <span class="lesson-done">
-                        <span aria-hidden="true">✓</span>
-                        <span class="visually-hidden">(done)</span>
-                      </span>
-                    </Show>
+                  <span>
+                    <strong>
+                      {lesson.title}
+                      <Show when={isDone()}>
+                        <span class="visually-hidden"> (done)</span>
+                      </Show>
+                    </strong>
+                    <small>
+                      {lesson.aim} {lesson.minutes} min
+                    </small>
                   </span>
-                  <span class="lesson-aim">
-                    {lesson.aim} <span class="lesson-minutes">{lesson.minutes} min</span>
-                  </span>
+                  <Show when={isDone()} fallback={<Icon of={ChevronRight} />}>
+                    <Icon of={CircleCheck} class="lesson-done" />
+                  </Show>
                 </button>
               </li>
             );
@@ -57,7 +63,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
       </ol>
       <button
         type="button"
-        class="small start-over"
+        class="start-over"
         disabled={isFresh()}
         title="Forgets your predictions and which lessons are done"
         onClick={store.startOver}
@@ -72,13 +78,13 @@ export default function LessonsPanel(props: { lab: LessonsLab }): JSX.Element {
   const { lab } = props;
   const store = lessonsOf(lab);
   return (
-    <div class="lessons">
+    <>
       <Show when={store.lesson() === undefined && lab.address.lesson()}>
         {(name) => <p role="alert">There is no lesson “{name()}”.</p>}
       </Show>
       <Show when={store.lesson()} fallback={<LessonList store={store} />} keyed>
         {(lesson) => <LessonView lab={lab} store={store} lesson={lesson} />}
       </Show>
-    </div>
+    </>
   );
 }

@@ -1,38 +1,54 @@
 // A step of a lesson: an experiment or a training, and what is to be seen in it.
 
+import { Check, Lightbulb } from 'lucide';
 import { For, Show, type JSX } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
 import type { Session, Trial } from '../../lab/slices';
 import { isActive, stageSentence, updateWords } from '../../lab/trainingStage';
 import type { TrainingSummary } from '../../net/protocol.gen';
+import { Icon } from '../../ui/Icon';
 import { isTraining, type Run, type Task, tasksOf, type TrainingRun } from './lesson';
 import type { Lessons } from './store';
-import { SmallButton } from '../../ui/SmallButton';
 
 interface Props<R> {
   readonly lab: Session & Trial;
   readonly store: Lessons;
   readonly run: R;
+  readonly prediction: string | undefined;
+  /** The foot of the panel, with what is given at its left. */
+  readonly foot: (left: JSX.Element) => JSX.Element;
 }
 
 /** The instructions, and why the buttons are disabled. */
-function Instructions(
-  props: Props<Run | TrainingRun> & { to: string; buttons: JSX.Element },
-): JSX.Element {
+function Instructions(props: Props<Run | TrainingRun> & { to: string }): JSX.Element {
   const { lab } = props;
   return (
     <>
-      <Show when={props.run.title}>{(title) => <p class="lesson-run">{title()}</p>}</Show>
+      <Show when={props.run.title}>{(title) => <h3>{title()}</h3>}</Show>
       <For each={props.run.words}>{(words) => <p>{words}</p>}</For>
-      <div class="lesson-buttons">{props.buttons}</div>
       <Show when={!lab.canOperate()}>
-        <p class="lesson-note">
+        <p class="hint">
           {lab.connection().kind === 'live'
             ? `You are watching: take control at the top of the page to ${props.to}.`
             : `No connection to the server: you cannot ${props.to} now.`}
         </p>
       </Show>
     </>
+  );
+}
+
+function Prediction(props: { words: string | undefined }): JSX.Element {
+  return (
+    <Show when={props.words}>
+      {(words) => (
+        <p class="lesson-note">
+          <Icon of={Lightbulb} />
+          <span>
+            You predicted: <strong>{words()}</strong>
+          </span>
+        </p>
+      )}
+    </Show>
   );
 }
 
@@ -44,50 +60,43 @@ function ExperimentStep(props: Props<Run>): JSX.Element {
     const track = store.track();
     return track !== undefined && task.done(track);
   };
+  const next = (): Task | undefined =>
+    isFollowed() ? tasks.find((one) => !isDone(one)) : undefined;
   return (
     <>
-      <Instructions
-        {...props}
-        to="set up the experiment"
-        buttons={
-          <>
-            <SmallButton
-              classList={{ primary: !isFollowed() }}
-              disabled={!lab.canOperate()}
-              onClick={() => void store.setUp(run)}
-            >
-              {store.track() ? 'Set it up again' : 'Set it up'}
-            </SmallButton>
-            <For each={run.actions}>
-              {(action) => (
-                <CommandButton
-                  lab={lab}
-                  at="workspace"
-                  class="small"
-                  disabled={!isFollowed()}
-                  command={() => {
-                    const scene = lab.scene();
-                    return scene && action.message(scene);
-                  }}
-                >
-                  {action.label}
-                </CommandButton>
-              )}
-            </For>
-          </>
-        }
-      />
+      <Instructions {...props} to="set up the experiment" />
+      <Show when={run.actions}>
+        <div class="buttons">
+          <For each={run.actions}>
+            {(action) => (
+              <CommandButton
+                lab={lab}
+                at="workspace"
+                disabled={!isFollowed()}
+                command={() => {
+                  const scene = lab.scene();
+                  return scene && action.message(scene);
+                }}
+              >
+                {action.label}
+              </CommandButton>
+            )}
+          </For>
+        </div>
+      </Show>
       <Show when={store.isElsewhere()}>
-        <p class="lesson-note">
+        <p class="hint">
           The page shows another experiment now. Set this one up again to continue.
         </p>
       </Show>
       <ul class="lesson-tasks">
         <For each={tasks}>
           {(task) => (
-            <li classList={{ done: isDone(task) }}>
+            <li classList={{ done: isDone(task), next: next() === task }}>
               <span class="task-mark" aria-hidden="true">
-                {isDone(task) ? '✓' : ''}
+                <Show when={isDone(task)}>
+                  <Icon of={Check} />
+                </Show>
               </span>
               <span>
                 {task.text}
@@ -99,9 +108,22 @@ function ExperimentStep(props: Props<Run>): JSX.Element {
           )}
         </For>
       </ul>
-      <p class="lesson-count number" role="status">
-        {tasks.filter(isDone).length} of {tasks.length} done
-      </p>
+      <Prediction words={props.prediction} />
+      {props.foot(
+        <>
+          <button
+            type="button"
+            classList={{ primary: !isFollowed() && !store.mayGoOn() }}
+            disabled={!lab.canOperate()}
+            onClick={() => void store.setUp(run)}
+          >
+            {store.track() ? 'Set it up again' : 'Set it up'}
+          </button>
+          <span class="number" role="status">
+            {tasks.filter(isDone).length} of {tasks.length} done
+          </span>
+        </>,
+      )}
     </>
   );
 }
@@ -116,20 +138,7 @@ function TrainingStep(props: Props<TrainingRun>): JSX.Element {
   };
   return (
     <>
-      <Instructions
-        {...props}
-        to="train a policy"
-        buttons={
-          <SmallButton
-            classList={{ primary: summary()?.stage !== 'done' }}
-            aria-label={`Train ${run.policy}`}
-            disabled={!lab.canOperate() || isBusy()}
-            onClick={() => void trainings.start(run)}
-          >
-            {summary() && !isBusy() ? 'Train again' : 'Train'}
-          </SmallButton>
-        }
-      />
+      <Instructions {...props} to="train a policy" />
       <div role="alert">
         <Show when={trainings.refusal()}>{(text) => <p class="refusal">{text()}</p>}</Show>
       </div>
@@ -149,15 +158,27 @@ function TrainingStep(props: Props<TrainingRun>): JSX.Element {
           </div>
         )}
       </Show>
+      <Prediction words={props.prediction} />
+      {props.foot(
+        <button
+          type="button"
+          classList={{ primary: summary()?.stage !== 'done' && !store.mayGoOn() }}
+          aria-label={`Train ${run.policy}`}
+          disabled={!lab.canOperate() || isBusy()}
+          onClick={() => void trainings.start(run)}
+        >
+          {summary() && !isBusy() ? 'Train again' : 'Train'}
+        </button>,
+      )}
     </>
   );
 }
 
 export function RunStep(props: Props<Run | TrainingRun>): JSX.Element {
-  const { lab, store, run } = props;
+  const { run } = props;
   return isTraining(run) ? (
-    <TrainingStep lab={lab} store={store} run={run} />
+    <TrainingStep {...props} run={run} />
   ) : (
-    <ExperimentStep lab={lab} store={store} run={run} />
+    <ExperimentStep {...props} run={run} />
   );
 }

@@ -15,7 +15,7 @@ import type { Chosen } from './store';
 export function CellCard(props: {
   lab: Session & Notices;
   report: RecoveryReport;
-  chosen: Chosen;
+  chosen: Required<Chosen>;
   label: string;
 }): JSX.Element {
   const [trials, setTrials] = createSignal<readonly RecoveryTrial[]>([]);
@@ -47,6 +47,7 @@ export function CellCard(props: {
     <Show when={row()}>
       {(row) => (
         <section class="recovery-card" aria-label="The chosen cell">
+          <h3>The chosen cell</h3>
           <p>
             <strong>{props.label}</strong>, {spotWords(row(), props.report.kind)}:{' '}
             <span data-testid="recovery-cell">{cellWords(row())}</span>.

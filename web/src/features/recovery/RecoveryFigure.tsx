@@ -43,7 +43,8 @@ export function RecoveryFigure(props: {
   walls: readonly Polygon[];
   chosen: number | undefined;
   dropped: number | undefined;
-  onChoose: (cell: number) => void;
+  /** Without, it is only a picture. */
+  onChoose?: (cell: number) => void;
 }): JSX.Element {
   const drawing = () => drawingOf(props.report, props.name, props.workspace);
   const dot = (at: readonly [number, number], kind: string): JSX.Element => (
@@ -51,18 +52,22 @@ export function RecoveryFigure(props: {
   );
   return (
     <svg
-      class="recovery-figure"
+      class="recovery-cells"
       viewBox={drawing().box.join(' ')}
-      role="application"
-      tabindex="0"
-      aria-label={`${props.label}: cells. Arrow keys choose one.`}
+      {...(props.onChoose
+        ? {
+            role: 'application',
+            tabindex: 0,
+            'aria-label': `${props.label}: cells. Arrow keys choose one.`,
+          }
+        : { 'aria-hidden': 'true' })}
       onKeyDown={(event) => {
         const arrow = ARROWS[event.key];
         if (!arrow || event.ctrlKey || event.altKey || event.metaKey) return;
         event.preventDefault();
         event.stopPropagation();
         const next = nextShape(drawing().shapes, props.chosen, [arrow[0], -arrow[1]]);
-        if (next !== undefined) props.onChoose(next);
+        if (next !== undefined) props.onChoose?.(next);
       }}
     >
       <Patterns />
@@ -84,13 +89,13 @@ export function RecoveryFigure(props: {
               }}
               fill-opacity={FAINTEST + (1 - FAINTEST) * (look()?.strength ?? 0)}
               onClick={() => {
-                props.onChoose(shape.cell);
+                props.onChoose?.(shape.cell);
               }}
             />
           );
         }}
       </For>
-      <For each={drawing().labels}>
+      <For each={props.onChoose && drawing().labels}>
         {({ text, at: [x, y] }) => (
           <text class="axis number" x={x} y={y} aria-hidden="true">
             {text}

@@ -46,11 +46,11 @@ it('sends what is chosen, and shows why the server refuses it', async () => {
     },
   });
   show(() => <RecoveryPanel lab={lab} />);
-  const start = page.getByRole('button', { name: /^Map recovery from/ });
+  const start = page.getByRole('button', { name: /^Map from/ });
   const refused = page.getByText(/^(no goal is set|grid makes)/);
   await expect.element(start).toBeEnabled();
   server.state({ tick: 250, newest_tick: 250, sim_time_s: 2 });
-  await expect.element(start).toHaveTextContent('Map recovery from 2.0 s');
+  await expect.element(start).toHaveTextContent('Map from 2.0 s');
   await start.click();
   await expect.element(refused).toHaveTextContent('no goal is set');
   expect(query).toMatchObject({ session: 'main', tick: 250, kind: 'place', grid: 24 });
@@ -148,15 +148,20 @@ it('shows each controller or the difference of two, and goes from cell to cell b
   server.lists({ recoveries: [report] });
   server.scene({ map: 'posts' });
   show(() => <RecoveryPanel lab={lab} />);
-  const figures = page.getByRole('application');
-  await expect.poll(() => figures.all().length).toBe(2);
+  const rl = page.getByRole('application', { name: /^RL: cells/ });
+  await expect.element(rl).toBeVisible();
+  await page.getByRole('button', { name: /^ERRT/ }).click();
   const errt = page.getByRole('application', { name: /^ERRT: cells/ });
   (errt.element() as unknown as SVGElement).focus();
   await userEvent.keyboard('{ArrowRight}{ArrowRight}');
   await expect.element(page.getByTestId('recovery-cell')).toHaveTextContent('2 delivered');
   await page.getByLabelText('Show').selectOptions('RL minus ERRT');
-  await expect.poll(() => figures.all().length).toBe(1);
+  await expect
+    .element(page.getByRole('application', { name: /^RL minus ERRT: cells/ }))
+    .toBeVisible();
   expect(
-    [...document.querySelectorAll('.cell')].map((one) => one.getAttribute('data-kind')),
+    [...document.querySelectorAll('[role=application] .cell')].map((one) =>
+      one.getAttribute('data-kind'),
+    ),
   ).toEqual(['first', 'second']);
 });

@@ -1,22 +1,25 @@
 // The tab *Recovery*: from where the bead is still delivered after a disturbance.
 
-import { For, Show, createMemo, type JSX } from 'solid-js';
+import { Shield } from 'lucide';
+import { Show, createMemo, type JSX } from 'solid-js';
 import { labelOf } from '../../lab/parameters';
 import type { PanelProps } from '../../lab/panel';
+import { operatorOnly } from '../../lab/operatorOnly';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { ByHand, Notices, Session, Trial } from '../../lab/slices';
 import { isActive } from '../../lab/trainingStage';
 import type { RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
+import { createAttempt } from '../../ui/attempt';
+import { Empty } from '../../ui/Empty';
 import { clock, counted } from '../../ui/format';
 import { ChoiceField } from '../../ui/fields/fields';
+import { SmallButton } from '../../ui/SmallButton';
 import { CellCard } from './CellCard';
-import { basinWords, cellAt, cellWords, looksOf, rowsOf } from './cells';
-import { createShown } from './recoveries';
-import { RecoveryFigure } from './RecoveryFigure';
+import { cancelRecovery, createShown } from './recoveries';
+import { Cells, Thumbnails, titleOf } from './RecoveryCells';
 import { RecoveryStart } from './RecoveryStart';
 import * as store from './store';
 import './recovery.css';
-import { addressOf } from '../../net/base';
 
 function progressWords({ stage, done, planned, message }: RecoverySummary): string {
   const counts = `${done} of ${counted(planned, 'trial')}`;
@@ -25,9 +28,6 @@ function progressWords({ stage, done, planned, message }: RecoverySummary): stri
   if (stage === 'failed') return `failed: ${message ?? ''}`;
   return stage === 'done' ? counted(done, 'trial') : `cancelled after ${counts}`;
 }
-
-const titleOf = ({ names }: RecoveryReport, indices: readonly number[]): string =>
-  indices.map((index) => labelOf(names[index] ?? '')).join(' minus ');
 
 function Arrange(props: { report: RecoveryReport }): JSX.Element {
   const pairs = (): store.Pair[] =>
@@ -39,101 +39,11 @@ function Arrange(props: { report: RecoveryReport }): JSX.Element {
       label="Show"
       value={String(store.pair() ?? '')}
       options={[
-        ['', 'each controller'],
+        ['', 'one controller'],
         ...pairs().map((pair) => [String(pair), titleOf(props.report, pair)] as const),
       ]}
       onChoose={(value) => store.setPair(pairs().find((pair) => String(pair) === value))}
     />
-  );
-}
-
-function Legend(props: { isDifference: boolean }): JSX.Element {
-  const keys = (): readonly (readonly [string, string])[] =>
-    props.isDifference
-      ? [
-          ['first', 'first better'],
-          ['second', 'second better'],
-          ['equal', 'equal'],
-        ]
-      : [
-          ['delivered', 'delivered'],
-          ['late', 'mostly late'],
-          ['lost', 'mostly lost'],
-        ];
-  return (
-    <ul class="recovery-legend" aria-label="Legend">
-      <For each={keys()}>
-        {([kind, words]) => (
-          <li>
-            <span class="key" data-kind={kind} />
-            {words}
-          </li>
-        )}
-      </For>
-    </ul>
-  );
-}
-
-function Figures(props: { lab: Session & Trial & Notices; report: RecoveryReport }): JSX.Element {
-  const { lab } = props;
-  const dropped = (): number | undefined => {
-    const at = store.dropped();
-    return at && lab.scene()?.map === props.report.map ? cellAt(props.report, at) : undefined;
-  };
-  /** Each controller, or the difference of two: one index or two. */
-  const drawn = createMemo((): (readonly number[])[] => {
-    const pair = store.pair();
-    return pair ? [pair] : props.report.names.map((_, index) => [index]);
-  });
-  const nameOf = ([first = 0]: readonly number[]): string => props.report.names[first] ?? '';
-  const basin = (name: string) => props.report.basins.find((one) => one.controller === name);
-  const fell = (name: string): string | undefined => {
-    const cell = dropped();
-    const row = rowsOf(props.report, name).find((one) => one.cell === cell);
-    return row && `Your last drag ended here: ${cellWords(row)}.`;
-  };
-  return (
-    <div class="recovery-figures">
-      <For each={drawn()}>
-        {(indices) => {
-          const name = nameOf(indices);
-          const isOne = indices.length === 1;
-          const title = titleOf(props.report, indices);
-          return (
-            <figure data-controller={isOne ? name : undefined}>
-              <figcaption>
-                <strong>{title}</strong>{' '}
-                <Show when={isOne && basin(name)}>
-                  {(one) => (
-                    <span class="number" title="Share delivered in time, with its 95 % interval">
-                      {basinWords(one())}
-                    </span>
-                  )}
-                </Show>
-              </figcaption>
-              <Show when={lab.scene()}>
-                {(scene) => (
-                  <RecoveryFigure
-                    report={props.report}
-                    name={name}
-                    label={title}
-                    looks={looksOf(props.report, indices)}
-                    workspace={scene().workspace}
-                    walls={scene().map === props.report.map ? scene().walls : []}
-                    chosen={store.chosen()?.cell}
-                    dropped={dropped()}
-                    onChoose={(cell) => {
-                      store.setChosen({ cell, name });
-                    }}
-                  />
-                )}
-              </Show>
-              <Show when={isOne && fell(name)}>{(text) => <p class="hint">{text()}</p>}</Show>
-            </figure>
-          );
-        }}
-      </For>
-    </div>
   );
 }
 
@@ -163,6 +73,71 @@ function Earlier(props: {
   );
 }
 
+function Progress(props: { lab: Session; report: RecoveryReport }): JSX.Element {
+  const { attempt, refusal } = createAttempt();
+  return (
+    <div class="recovery-progress">
+      <progress
+        max={Math.max(1, props.report.planned)}
+        value={props.report.done}
+        aria-label="Progress of the recovery map"
+      />
+      <SmallButton
+        {...operatorOnly(props.lab)}
+        onClick={() => void attempt(cancelRecovery(props.report.id))}
+      >
+        Cancel map
+      </SmallButton>
+      <span class="refusal" role="alert">
+        {refusal()}
+      </span>
+    </div>
+  );
+}
+
+function Report(props: { lab: Session & Trial & Notices; report: RecoveryReport }): JSX.Element {
+  const { lab } = props;
+  const indices = createMemo((): readonly number[] => {
+    const front = props.report.names.indexOf(store.chosen()?.name ?? '');
+    return store.pair() ?? [Math.max(0, front)];
+  });
+  const chosen = createMemo((): Required<store.Chosen> | undefined => {
+    const { name, cell } = store.chosen() ?? {};
+    return name === undefined || cell === undefined ? undefined : { name, cell };
+  });
+  return (
+    <>
+      <p>From where does each controller still deliver the bead after a disturbance?</p>
+      <p data-testid="recovery-progress" class="hint" role="status">
+        {props.report.kind} on {props.report.map}
+        {props.report.map === lab.scene()?.map
+          ? ''
+          : ', which is another map than that of the session,'}{' '}
+        from {clock(props.report.tick * (lab.scene()?.tick_s ?? 0))}: {progressWords(props.report)}
+      </p>
+      <Show when={isActive(props.report)}>
+        <Progress lab={lab} report={props.report} />
+      </Show>
+      <Thumbnails
+        lab={lab}
+        report={props.report}
+        shown={props.report.names[indices()[0] ?? 0] ?? ''}
+      />
+      <Cells lab={lab} report={props.report} indices={indices()} />
+      <Show when={chosen()}>
+        {(one) => (
+          <CellCard lab={lab} report={props.report} chosen={one()} label={labelOf(one().name)} />
+        )}
+      </Show>
+      <Show when={props.report.names.length > 1}>
+        <div class="form">
+          <Arrange report={props.report} />
+        </div>
+      </Show>
+    </>
+  );
+}
+
 export default function RecoveryPanel(
   props: PanelProps<Session & Trial & Notices & ByHand>,
 ): JSX.Element {
@@ -172,15 +147,7 @@ export default function RecoveryPanel(
   const report = (): RecoveryReport | undefined =>
     store.report()?.id === shown()?.id ? store.report() : undefined;
   return (
-    <div class="recovery">
-      <RecoveryStart lab={lab} shown={shown()} />
-      <Earlier
-        all={lab.catalog.recoveries() ?? []}
-        shown={shown()?.id}
-        isHere={(one) => one.map === map()}
-        onChoose={(id) => store.setWanted({ id, on: map() })}
-      />
-      <PlaceNotice lab={lab} place="recovery" />
+    <>
       <Show
         when={lab.sight() === 'all'}
         fallback={<p class="hint">Hidden in fog: a recovery map shows the walls.</p>}
@@ -188,56 +155,23 @@ export default function RecoveryPanel(
         <Show
           when={report()}
           fallback={
-            <p class="hint">
-              From the shown moment, Ferry tries many disturbances under each controller, and paints
-              from where the bead is still delivered. Place a goal first. The session goes on.
-            </p>
+            <Empty icon={Shield} question="From where is the bead still delivered?">
+              From the shown moment, Ferry tries many disturbances under each controller, beside
+              your session. Place a goal first.
+            </Empty>
           }
         >
-          {(report) => (
-            <>
-              <div class="recovery-head">
-                <span data-testid="recovery-progress" role="status">
-                  {report().kind} on {report().map}
-                  {report().map === map()
-                    ? ''
-                    : ', which is another map than that of the session,'}{' '}
-                  from {clock(report().tick * (lab.scene()?.tick_s ?? 0))}:{' '}
-                  {progressWords(report())}
-                </span>
-                <Show when={isActive(report())}>
-                  <progress
-                    max={Math.max(1, report().planned)}
-                    value={report().done}
-                    aria-label="Progress of the recovery map"
-                  />
-                </Show>
-                <Arrange report={report()} />
-                <Legend isDifference={store.pair() !== undefined} />
-                <a href={addressOf(`/api/recoveries/${report().id}/map.html`)} download="">
-                  HTML
-                </a>
-                <a href={addressOf(`/api/recoveries/${report().id}/map.csv`)} download="">
-                  CSV
-                </a>
-              </div>
-              <div class="recovery-body">
-                <Figures lab={lab} report={report()} />
-                <Show when={store.chosen()}>
-                  {(chosen) => (
-                    <CellCard
-                      lab={lab}
-                      report={report()}
-                      chosen={chosen()}
-                      label={labelOf(chosen().name)}
-                    />
-                  )}
-                </Show>
-              </div>
-            </>
-          )}
+          {(report) => <Report lab={lab} report={report()} />}
         </Show>
       </Show>
-    </div>
+      <Earlier
+        all={lab.catalog.recoveries() ?? []}
+        shown={shown()?.id}
+        isHere={(one) => one.map === map()}
+        onChoose={(id) => store.setWanted({ id, on: map() })}
+      />
+      <PlaceNotice lab={lab} place="recovery" />
+      <RecoveryStart lab={lab} report={report()} />
+    </>
   );
 }

@@ -1,26 +1,24 @@
 // Chooses what is tried from the shown moment, and starts a recovery map.
 
-import { Show, type JSX } from 'solid-js';
+import { Shield } from 'lucide';
+import { For, type JSX } from 'solid-js';
 import { createTakingPart } from '../../lab/offered';
-import { operatorOnly } from '../../lab/operatorOnly';
 import type { Session, Trial } from '../../lab/slices';
-import { isActive } from '../../lab/trainingStage';
 import { RECOVERY_FIELDS } from '../../net/forms.gen';
-import type { RecoveryKind, RecoverySummary } from '../../net/protocol.gen';
-import { createAttempt } from '../../ui/attempt';
+import { addressOf } from '../../net/base';
+import type { RecoveryKind, RecoveryReport } from '../../net/protocol.gen';
 import { CheckField, ChoiceField, NumberField } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
 import { numberOf } from '../../ui/fields/number';
 import { clock } from '../../ui/format';
-import { SmallButton } from '../../ui/SmallButton';
-import { cancelRecovery, startRecovery } from './recoveries';
+import { startRecovery } from './recoveries';
 import { change, draft, edits } from './store';
 
 const KINDS: readonly (readonly [RecoveryKind, string])[] = [
-  ['place', 'put the bead elsewhere'],
-  ['push', 'push the bead'],
-  ['drag', 'pull the bead by hand'],
-  ['blind', 'blind the tracker'],
+  ['place', 'Put elsewhere'],
+  ['push', 'Push'],
+  ['drag', 'Pull by hand'],
+  ['blind', 'Blind tracker'],
 ];
 const COLUMNS: Readonly<Record<RecoveryKind, string>> = {
   place: 'Columns',
@@ -29,12 +27,17 @@ const COLUMNS: Readonly<Record<RecoveryKind, string>> = {
   blind: 'Times',
 };
 
+const FILES = [
+  ['html', 'HTML'],
+  ['csv', 'CSV'],
+] as const;
+
 export function RecoveryStart(props: {
   lab: Session & Trial;
-  shown: RecoverySummary | undefined;
+  /** Offered as files. */
+  report: RecoveryReport | undefined;
 }): JSX.Element {
   const { lab } = props;
-  const { attempt, refusal } = createAttempt();
   const { wanted, field } = createTakingPart(
     lab,
     () => draft().left_out,
@@ -62,36 +65,34 @@ export function RecoveryStart(props: {
   return (
     <Form
       class="recovery-start"
-      isInline
       byButtonOnly
       send={start}
-      button={`Map recovery from ${clock(lab.state()?.sim_time_s ?? 0)}`}
-      buttonClass="small primary"
+      button={`Map from ${clock(lab.state()?.sim_time_s ?? 0)}`}
+      icon={Shield}
+      endClass="inspector-foot"
       buttonTitle="Tries each disturbance from the shown moment under each controller, beside the session"
       disabled={!lab.canOperate()}
       beside={
-        <>
-          <Show when={props.shown && isActive(props.shown) && props.shown.id}>
-            {(id) => (
-              <SmallButton
-                {...operatorOnly(lab)}
-                onClick={() => void attempt(cancelRecovery(id()))}
-              >
-                Cancel map
-              </SmallButton>
-            )}
-          </Show>
-          <span class="refusal" role="alert">
-            {refusal()}
-          </span>
-        </>
+        <For each={props.report && FILES}>
+          {([ending, name]) => (
+            <a
+              class="button small ghost"
+              href={addressOf(`/api/recoveries/${props.report?.id ?? ''}/map.${ending}`)}
+              download=""
+            >
+              {name}
+            </a>
+          )}
+        </For>
       }
     >
-      <ChoiceField {...edits('kind')} label="Disturbance" options={KINDS} />
-      <NumberField {...RECOVERY_FIELDS.grid} {...edits('grid')} label={COLUMNS[draft().kind]} />
-      <NumberField {...RECOVERY_FIELDS.repeats} {...edits('repeats')} />
-      <NumberField {...RECOVERY_FIELDS.within_s} {...edits('within_s')} />
-      <NumberField {...edits('seed')} label="Noise seed" min={0} isWhole />
+      <div class="form-two">
+        <ChoiceField {...edits('kind')} label="Disturbance" options={KINDS} />
+        <NumberField {...RECOVERY_FIELDS.grid} {...edits('grid')} label={COLUMNS[draft().kind]} />
+        <NumberField {...RECOVERY_FIELDS.repeats} {...edits('repeats')} />
+        <NumberField {...RECOVERY_FIELDS.within_s} {...edits('within_s')} />
+        <NumberField {...edits('seed')} label="Noise seed" min={0} isWhole />
+      </div>
       <CheckField {...field} verb="Try" />
     </Form>
   );

@@ -1,6 +1,6 @@
 // What the cells of a recovery map say. Pure.
 
-import type { Basin, RecoveryCell, RecoveryReport, RecoveryTrial } from '../../net/protocol.gen';
+import type { RecoveryCell, RecoveryReport, RecoveryTrial } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
 
 /** How a cell is drawn. */
@@ -74,11 +74,8 @@ export function spotWords(row: RecoveryCell, kind: RecoveryReport['kind']): stri
     : `pulled toward ${degrees}° over ${fixed(strength * CM_PER_M, 0)} cm`;
 }
 
-/** `0.33 (0.28 to 0.39), 195 cm²`. */
-export function basinWords({ share, share95: [low, high], area_m2 }: Basin): string {
-  const area = area_m2 === null ? '' : `, ${fixed(area_m2 * CM2_PER_M2, 0)} cm²`;
-  return `${fixed(share, 2)} (${fixed(low, 2)} to ${fixed(high, 2)})${area}`;
-}
+export const squareCentimetres = (area_m2: number): string =>
+  `${fixed(area_m2 * CM2_PER_M2, 0)} cm²`;
 
 /** `trial 2: lost, stopped: 150 steps …, 42.0 s`. */
 export function trialWords(trial: RecoveryTrial): string {

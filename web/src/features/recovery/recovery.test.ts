@@ -1,6 +1,14 @@
 import { expect, it } from 'vitest';
 import type { RecoveryCell, RecoveryReport } from '../../net/protocol.gen';
-import { basinWords, cellAt, cellWords, difference, look, looksOf, spotWords } from './cells';
+import {
+  cellAt,
+  cellWords,
+  difference,
+  look,
+  looksOf,
+  spotWords,
+  squareCentimetres,
+} from './cells';
 import { drawingOf, nextShape } from './shapes';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.3, y_min_m: -0.5, y_max_m: -0.2 };
@@ -59,10 +67,7 @@ it('says what happened and what was done', () => {
   expect(spotWords(row({ at_s: 3, strength: 2 }), 'blind')).toBe(
     'tracker blind for 2.0 s, 3.0 s after the moment',
   );
-  const basin = { controller: 'rl', trials: 9, delivered: 3, share: 1 / 3 };
-  expect(basinWords({ ...basin, share95: [0.12, 0.65], area_m2: 0.0195, area95_m2: null })).toBe(
-    '0.33 (0.12 to 0.65), 195 cm²',
-  );
+  expect(squareCentimetres(0.0195)).toBe('195 cm²');
 });
 
 it('finds the cell of a place', () => {

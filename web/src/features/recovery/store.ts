@@ -24,9 +24,9 @@ export const { draft, change, edits } = createDraft<Draft>({
 /** Two controllers, by their index. */
 export type Pair = readonly [first: number, second: number];
 
-/** A cell, and the controller whose trials are listed. */
+/** The controller whose cells are shown, and the cell whose trials are listed. */
 export interface Chosen {
-  readonly cell: number;
+  readonly cell?: number;
   readonly name: string;
 }
 

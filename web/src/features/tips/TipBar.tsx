@@ -1,11 +1,12 @@
-// The current tip, over the line below the workspace, where it moves and covers nothing of the map.
+// The current tip, in the band below the map, in place of the hint.
 
+import { Lightbulb } from 'lucide';
 import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import { IS_TOUCH } from '../../ui/touch';
 import { recall, remember } from '../../ui/storage';
 import { type Shown, TIP_IDS, type TipId, doneAfter, nextTip, tipsFrom, tipText } from './tips';
-import { SmallButton } from '../../ui/SmallButton';
+import { Icon } from '../../ui/Icon';
 import './tips.css';
 
 const KEY = 'tips';
@@ -48,8 +49,11 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
     <Show when={tip()}>
       {(id) => (
         <p class="tip" role="status">
+          <Icon of={Lightbulb} />
           <span>{tipText(id(), hasGoal(), IS_TOUCH)}</span>
-          <SmallButton onClick={() => store(new Set(TIP_IDS))}>Skip tips</SmallButton>
+          <button type="button" class="ghost small" onClick={() => store(new Set(TIP_IDS))}>
+            Skip tips
+          </button>
         </p>
       )}
     </Show>

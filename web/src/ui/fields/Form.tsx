@@ -9,6 +9,8 @@ import {
   useContext,
   type JSX,
 } from 'solid-js';
+import type { IconNode } from 'lucide';
+import { Icon } from '../Icon';
 import './fields.css';
 
 /** A field, as the form knows it. */
@@ -51,6 +53,7 @@ export function Form(props: {
   /** A rejection is said at the field that its `field` names, or below the form. */
   send: () => unknown;
   button: string;
+  icon?: IconNode;
   /** The accessible name of the button, if it says more. */
   buttonName?: string;
   buttonClass?: string;
@@ -62,6 +65,8 @@ export function Form(props: {
   why?: string | undefined;
   /** Beside the button. */
   beside?: JSX.Element;
+  /** Of the row of the button, as `inspector-foot`. */
+  endClass?: string | undefined;
   /** Enter in a field does not send it. */
   byButtonOnly?: boolean;
   children: JSX.Element;
@@ -138,7 +143,7 @@ export function Form(props: {
       }}
     >
       <Fields.Provider value={fields}>{props.children}</Fields.Provider>
-      <div class="form-end">
+      <div class={`form-end ${props.endClass ?? ''}`}>
         <button
           type="submit"
           class={props.buttonClass ?? 'primary'}
@@ -147,6 +152,7 @@ export function Form(props: {
           disabled={props.disabled || isPending()}
           aria-describedby={`${id}-why`}
         >
+          <Show when={props.icon}>{(icon) => <Icon of={icon()} />}</Show>
           {isPending() ? (props.pending ?? props.button) : props.button}
         </button>
         <span id={`${id}-why`} class="hint" hidden={!props.disabled || props.why === undefined}>
