@@ -46,7 +46,8 @@ function contradiction(sentence: string, state: StateMessage): string | undefine
     `${words}: “${sentence}” beside “${badge.text}”, ${JSON.stringify(state.phase)}`;
   if (badge.of === 'fetch' && CARRIES.test(sentence)) return why('it fetches');
   if (badge.of !== 'fetch' && FETCHES.test(sentence)) return why('it carries');
-  if (/^Delivered/.test(sentence) && state.phase.code !== 'delivered') return why('not delivered');
+  if (sentence.startsWith('Delivered') && state.phase.code !== 'delivered')
+    return why('not delivered');
   if (badge.of === 'fetch') return undefined;
   const named = NAMES.find(([words]) => words.test(sentence))?.[1];
   return named && named !== badge.of ? why('another controller') : undefined;
