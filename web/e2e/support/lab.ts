@@ -276,12 +276,6 @@ export class Lab extends Stepper {
     await this.isRole('operator');
   }
 
-  /** Opens a panel of the inspector, if it is not open. */
-  async panel(name: string) {
-    const tab = this.tab(name);
-    if ((await tab.getAttribute('aria-selected')) !== 'true') await tab.click();
-  }
-
   async restoreDefaults() {
     await this.panel('Tune');
     // The page restores what it shows as changed.
