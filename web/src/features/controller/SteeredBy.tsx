@@ -33,10 +33,12 @@ export function SteeredBy(props: { lab: Session & Trial & Notices }): JSX.Elemen
     },
     (choice) => lab.send('controller', { type: 'select_controller', ...choice }),
   );
+  // A memo, so that the segments stay when a state comes.
+  const isRobot = createMemo(() => lab.state()?.controller === 'robot');
   const choices = createMemo((): readonly Choice[] => [
     ...(lab.scene()?.controllers ?? []).map((controller) => ({ controller })),
     // It takes the arm by itself; a choice only takes it back.
-    ...(lab.state()?.controller === 'robot' ? [{ controller: 'robot' as const }] : []),
+    ...(isRobot() ? [{ controller: 'robot' as const }] : []),
     ...programs().map((name) => ({ controller: 'program' as const, program: name })),
   ]);
   const segments = createMemo(() =>

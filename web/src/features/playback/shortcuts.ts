@@ -2,9 +2,9 @@ import { toggleLanes } from '../../lab/lanes';
 import type { FeatureShortcuts } from '../../lab/shortcuts';
 import { nextSpeed, ticksToControlStep } from './steps';
 import { hintAtGoal, runOrPause } from './run';
-import type { Notices, Session, Trial } from '../../lab/slices';
+import type { Addressed, Notices, Session, Trial } from '../../lab/slices';
 
-export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices> = (lab, operate) => {
+export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices & Addressed> = (lab, operate) => {
   const shiftSpeed = (direction: 1 | -1) =>
     operate(() => {
       const target = lab.state()?.speed_target ?? 1;
@@ -43,6 +43,14 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices> = (lab,
         void lab.send('playback', { type: 'reset' });
       }),
     },
-    { group: 'Time', keys: ['p'], does: 'show or hide the plots', run: toggleLanes },
+    {
+      group: 'Time',
+      keys: ['p'],
+      does: 'show or hide the plots',
+      // Viewers may look at them, too.
+      run: () => {
+        if (lab.address.view() === 'laboratory') toggleLanes();
+      },
+    },
   ];
 };

@@ -11,7 +11,7 @@ import { Icon } from '../../ui/Icon';
 import { palette } from '../../ui/palette';
 import { createPopover } from '../../ui/popover';
 import { SmallButton } from '../../ui/SmallButton';
-import { choosePart, isChosen, isOnlyOne } from './chosen';
+import { choosePart, isOnlyOne, isShown } from './chosen';
 import { FIGURE_PX, figureSvg } from './figureSvg';
 import { PARTS } from './parts';
 import { csvOf, type Sample } from './sample';
@@ -78,7 +78,7 @@ export function PlotMenu(props: {
               <label title={isOnlyOne(letter) ? 'One plot stays' : undefined}>
                 <input
                   type="checkbox"
-                  checked={isChosen(letter)}
+                  checked={isShown(letter)}
                   disabled={isOnlyOne(letter)}
                   onChange={(event) => {
                     choosePart(letter, event.currentTarget.checked);

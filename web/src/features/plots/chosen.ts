@@ -14,7 +14,11 @@ const KEY = 'plots';
 const stored = (recall(KEY) ?? '').split(' ').filter((letter) => ORDER.includes(letter));
 const [chosen, setChosen] = createSignal(stored.length > 0 ? stored : ['b', 'a', 'e']);
 
-export const isChosen = (letter: string): boolean => chosen().includes(letter);
+const shown = (): readonly string[] => chosen().slice(isLow() ? 1 - LANES : -LANES);
+
+export const isShown = (letter: string): boolean => shown().includes(letter);
+
+export const isOnlyOne = (letter: string): boolean => shown().length === 1 && isShown(letter);
 
 export function choosePart(letter: string, isWanted: boolean): void {
   const others = chosen().filter((one) => one !== letter);
@@ -23,14 +27,9 @@ export function choosePart(letter: string, isWanted: boolean): void {
   remember(KEY, next.join(' '));
 }
 
-export const isOnlyOne = (letter: string): boolean => chosen().length === 1 && isChosen(letter);
-
 /** The parts that have room. */
 export function createShownParts(): Accessor<readonly Part[]> {
-  return createMemo(() => {
-    const shown = chosen().slice(isLow() ? 1 - LANES : -LANES);
-    return ORDER.filter((letter) => shown.includes(letter)).flatMap((letter) =>
-      PARTS.filter((part) => part.letter === letter),
-    );
-  });
+  return createMemo(() =>
+    ORDER.filter(isShown).flatMap((letter) => PARTS.filter((part) => part.letter === letter)),
+  );
 }
