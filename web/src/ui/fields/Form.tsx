@@ -12,6 +12,7 @@ import {
 import type { IconNode } from 'lucide';
 import { Icon } from '../Icon';
 import './fields.css';
+import './sideBySide.css';
 
 /** A field, as the form knows it. */
 export interface Entry {
