@@ -2,12 +2,7 @@
 
 import { createEffect, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
 import { nextToward, type Vec2 } from '../../lab/geometry';
-import {
-  GOAL_RADIUS_M,
-  type MapCheck,
-  type TrainingCells,
-  type TrainingFrame,
-} from '../../net/protocol.gen';
+import type { MapCheck, TrainingCells, TrainingFrame } from '../../net/protocol.gen';
 import { wallPath } from '../../plan/drawMap';
 import { createValues } from '../../plan/drawValues';
 import { ARROWS } from '../../plan/gesture';
@@ -16,25 +11,27 @@ import { fitView, type View, worldFromPx } from '../../plan/transform';
 import { onSize, type Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
 import { drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
-import { around, cellAt, grown, valueCells } from './grid';
+import { around, cellAt, valueCells } from './grid';
 import { palette } from '../../ui/palette';
 
-const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
+/** Around the box of the map, for the mark of a goal near the border, as in watch.css. */
+const MARGIN_PX = 12;
+const MARGIN = { left: MARGIN_PX, right: MARGIN_PX, top: MARGIN_PX, bottom: MARGIN_PX };
 const STEPS_PER_S = 14;
 /** The ends of the episodes are shown for as many steps. */
 const REST_STEPS = 14;
 
 interface PlanProps {
   readonly label: string;
-  readonly helpId: string;
+  readonly helpId?: string;
   /** Undefined until the server has sent it. */
   readonly map: MapCheck | undefined;
-  readonly cells: TrainingCells | undefined;
-  readonly frame: TrainingFrame | undefined;
-  readonly range: readonly [number, number] | undefined;
+  readonly cells?: TrainingCells | undefined;
+  readonly frame?: TrainingFrame | undefined;
+  readonly range?: readonly [number, number] | undefined;
   readonly layers: Layers;
-  readonly chosen: number | undefined;
-  readonly onChoose: (place: Vec2) => void;
+  readonly chosen?: number | undefined;
+  readonly onChoose?: (place: Vec2) => void;
 }
 
 export function TrainingPlan(props: PlanProps): JSX.Element {
@@ -45,16 +42,8 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   const workspace = createMemo(
     () => props.map?.workspace ?? (props.cells ? around(props.cells) : undefined),
   );
-  const shown = createMemo(() => {
-    const [rect, { cells }] = [workspace(), props];
-    return rect && cells ? grown(rect, cells.goal_m, GOAL_RADIUS_M) : rect;
-  });
-  const shape = (): string | undefined => {
-    const rect = shown();
-    return rect && String((rect.x_max_m - rect.x_min_m) / (rect.y_max_m - rect.y_min_m));
-  };
   const view = createMemo<View | undefined>(() => {
-    const [rect, now] = [shown(), size()];
+    const [rect, now] = [workspace(), size()];
     return rect && now && fitView(rect, now.width, now.height, MARGIN);
   });
   const walls = createMemo(() => {
@@ -114,14 +103,13 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
     const at = cells.centers_m[from];
     const next = at && nextToward(cells.centers_m, at, direction);
     const center = cells.centers_m[next ?? from];
-    if (center) props.onChoose(center);
+    if (center) props.onChoose?.(center);
   };
   return (
     <div class="train-plan">
       <canvas
         ref={base}
         class="train-canvas"
-        style={{ 'aspect-ratio': shape() }}
         tabindex="0"
         role="application"
         aria-label={props.label}
@@ -130,7 +118,7 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
         data-update={props.frame?.update}
         onClick={(event) => {
           const now = view();
-          if (now) props.onChoose(worldFromPx(now, [event.offsetX, event.offsetY]));
+          if (now) props.onChoose?.(worldFromPx(now, [event.offsetX, event.offsetY]));
         }}
         onKeyDown={onKeyDown}
       />

@@ -11,7 +11,7 @@ import type {
 import { drawFloor, drawOutlines } from '../../plan/drawMap';
 import { drawGoal } from '../../plan/drawMoving';
 import { drawArrows, drawColours, type Values } from '../../plan/drawValues';
-import { pxFromWorld, type View } from '../../plan/transform';
+import { pxFromWorld, pxRect, type View } from '../../plan/transform';
 import { placeAfter, startsThat } from './grid';
 import type { Palette } from '../../ui/palette';
 
@@ -38,10 +38,10 @@ interface Base {
 }
 
 /** A mark is in the corner of its cell, beside the arrow: its place and half its side as shares of a cell. */
-const CORNER = 0.33;
-const FAILED = 0.11;
+const CORNER = 0.28;
+const FAILED = 0.18;
 const LEAST_MARK_PX = 0.9;
-const MOST_MARK_PX = 3;
+const MOST_MARK_PX = 4;
 
 function cross(path: Path2D, [x, y]: Vec2, half: number): void {
   path.moveTo(x - half, y - half);
@@ -60,6 +60,23 @@ function markOf(ending: EpisodeEnding): typeof cross {
   return ending === 'collided' ? cross : ring;
 }
 
+/** A line on a lighter one, so that it shows on every colour of a value. */
+function strokeCased(
+  ctx: Ctx,
+  path: Path2D,
+  palette: Palette,
+  colour: string,
+  width: number,
+): void {
+  ctx.lineCap = 'round';
+  ctx.strokeStyle = palette.case;
+  ctx.lineWidth = 2.2 * width;
+  ctx.stroke(path);
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = width;
+  ctx.stroke(path);
+}
+
 function drawStarts(ctx: Ctx, base: Base, cells: TrainingCells, frame: TrainingFrame): void {
   const { view, palette } = base;
   const side = cells.spacing_m * view.pxPerM;
@@ -73,9 +90,7 @@ function drawStarts(ctx: Ctx, base: Base, cells: TrainingCells, frame: TrainingF
       markOf(ending)(path, [x + CORNER * side, y + CORNER * side], half);
     }
   }
-  ctx.strokeStyle = palette.danger;
-  ctx.lineWidth = Math.min(1.5, 0.9 * half);
-  ctx.stroke(path);
+  strokeCased(ctx, path, palette, palette['m-danger'], Math.min(1.6, 0.9 * half));
 }
 
 function drawChosen(ctx: Ctx, { view, palette }: Base, cells: TrainingCells, center: Vec2): void {
@@ -91,63 +106,76 @@ function drawChosen(ctx: Ctx, { view, palette }: Base, cells: TrainingCells, cen
   }
 }
 
+const CORNER_PX = 16;
+
 export function drawBase(ctx: Ctx, base: Base): void {
   const { view, palette, layers, cells, frame, values } = base;
+  ctx.save();
+  // The corners of the box of the map are round.
+  ctx.beginPath();
+  ctx.roundRect(...pxRect(view, base.workspace), CORNER_PX);
+  ctx.clip();
   drawFloor(ctx, base.workspace, view, palette);
   if (values && layers.values) drawColours(ctx, view, values);
   drawOutlines(ctx, base.workspace, base.walls, view, palette);
   if (cells && frame && layers.starts) drawStarts(ctx, base, cells, frame);
   if (values && layers.arrows) drawArrows(ctx, view, palette, values);
+  ctx.restore();
   if (!cells) return;
   drawGoal(ctx, view, palette, cells.goal_m);
   const center = base.chosen === undefined ? undefined : cells.centers_m[base.chosen];
   if (center) drawChosen(ctx, base, cells, center);
 }
 
-const DOT_PX = 4.5;
-const PATH_ALPHA = 0.55;
+const DOT_PX = 5;
+const EPISODE_PX = 2.2;
+const DOTS_PX = [0, 4.5];
+/** White on black, on every colour of a value. */
+const LINE = '#fff';
+const CASING = '#000';
 
 function drawEpisode(
   ctx: Ctx,
-  base: Pick<Base, 'view' | 'palette'>,
+  { view, palette }: Pick<Base, 'view' | 'palette'>,
   cells: TrainingCells,
   episode: TrainingEpisode,
   steps: number,
   isGreedy: boolean,
 ): void {
-  const { view, palette } = base;
   const at = placeAfter(cells, episode, steps);
   if (!at) return;
-  ctx.strokeStyle = isGreedy ? palette.magnet : palette.bead;
-  ctx.globalAlpha = PATH_ALPHA;
-  ctx.lineWidth = 1.5;
-  ctx.setLineDash(isGreedy ? [] : [3, 3]);
-  ctx.beginPath();
+  const [x, y] = pxFromWorld(view, at);
+  const path = new Path2D();
   for (const index of episode.cells.slice(0, Math.floor(steps) + 1)) {
     const center = cells.centers_m[index];
-    if (center) ctx.lineTo(...pxFromWorld(view, center));
+    if (center) path.lineTo(...pxFromWorld(view, center));
   }
-  const [x, y] = pxFromWorld(view, at);
-  ctx.lineTo(x, y);
-  ctx.stroke();
+  path.lineTo(x, y);
+  ctx.lineCap = 'round';
+  ctx.lineJoin = 'round';
+  for (const [colour, width, dash] of [
+    [CASING, 2 * EPISODE_PX, []],
+    [LINE, EPISODE_PX, isGreedy ? [] : DOTS_PX],
+  ] as const) {
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = width;
+    ctx.setLineDash([...dash]);
+    ctx.stroke(path);
+  }
   ctx.setLineDash([]);
-  ctx.globalAlpha = 1;
+  const end = new Path2D();
   const isOver = steps >= episode.cells.length - 1;
   if (isOver && episode.ending !== 'reached') {
-    const path = new Path2D();
-    markOf(episode.ending)(path, [x, y], DOT_PX);
-    ctx.strokeStyle = isGreedy ? palette.magnet : palette.bead;
-    ctx.lineWidth = 2.5;
-    ctx.stroke(path);
+    markOf(episode.ending)(end, [x, y], DOT_PX);
+    strokeCased(ctx, end, palette, palette['m-danger'], 2.5);
     return;
   }
-  ctx.beginPath();
-  ctx.arc(x, y, DOT_PX, 0, 2 * Math.PI);
-  ctx.fillStyle = isGreedy ? palette.magnet : palette.floor;
-  ctx.fill();
-  ctx.strokeStyle = isGreedy ? palette.floor : palette.bead;
-  ctx.lineWidth = isGreedy ? 1.25 : 2;
-  ctx.stroke();
+  ring(end, [x, y], DOT_PX);
+  ctx.fillStyle = LINE;
+  ctx.fill(end);
+  ctx.strokeStyle = CASING;
+  ctx.lineWidth = EPISODE_PX;
+  ctx.stroke(end);
 }
 
 /** The episodes of a frame after a number of steps. */
