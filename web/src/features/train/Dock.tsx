@@ -2,7 +2,6 @@
 
 import { For, Show, createEffect, type JSX } from 'solid-js';
 import { Activity, Play, Square } from 'lucide';
-import { counted } from '../../ui/format';
 import { Icon } from '../../ui/Icon';
 import { Toggle } from '../../ui/Toggle';
 import type { Layers } from './drawFrame';
@@ -36,7 +35,9 @@ function TimeRow(props: { watch: Watch }): JSX.Element {
         <Show when={watch.frame()} fallback={watch.words()}>
           {(frame) => (
             <>
-              after <b>{frame().update}</b> {counted(frame().update, 'update').split(' ')[1]}
+              <span>after </span>
+              <b>{frame().update}</b>
+              <span> {frame().update === 1 ? 'update' : 'updates'}</span>
             </>
           )}
         </Show>

@@ -56,7 +56,7 @@ export function Marks(): JSX.Element {
 /** How to read the numbers and the marks. */
 export function Readings(): JSX.Element {
   return (
-    <details>
+    <details class="train-readings">
       <summary>How to read it</summary>
       <p class="hint">
         A start fails if the best steps from there end at a wall, or go back and forth between two
