@@ -129,7 +129,9 @@ test(
     // So few updates teach the steps, but not yet all values.
     expect(order, 'rank correlation').toBeGreaterThan(0.5);
     // The table of policies has such a button, too.
-    await head(lab).getByRole('button', { name: /^Use it/ }).click();
+    await head(lab)
+      .getByRole('button', { name: /^Use it/ })
+      .click();
     await until('RL', () => lab.state.controller === 'rl');
     await expect(page.locator('.about-controller')).toContainText('my-drawn-by-hand');
     await lab.speed('8');

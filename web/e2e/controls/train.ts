@@ -135,9 +135,7 @@ export const TRAIN: Section = {
     'summary /^How .* was trained$/': { elsewhere: 'trains a policy, watches it and uses it' },
     'summary How to read it': {
       see: (lab) =>
-        lab.page
-          .locator('.train-readings')
-          .evaluate((one: HTMLDetailsElement) => one.open),
+        lab.page.locator('.train-readings').evaluate((one: HTMLDetailsElement) => one.open),
       isToggle: true,
     },
     'summary How does it learn?': {

@@ -1,14 +1,7 @@
 // The tools, their settings, and what can be done to the drawing as a whole.
 
 import { For, Show, type JSX } from 'solid-js';
-import {
-  FlipHorizontal2,
-  FlipVertical2,
-  type IconNode,
-  RotateCcw,
-  RotateCw,
-  Trash2,
-} from 'lucide';
+import { FlipHorizontal2, FlipVertical2, type IconNode, RotateCcw, RotateCw, Trash2 } from 'lucide';
 import { ChoiceField } from '../../ui/fields/fields';
 import { Icon } from '../../ui/Icon';
 import { Segmented } from '../../ui/Segmented';

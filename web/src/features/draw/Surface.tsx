@@ -13,7 +13,15 @@ import {
 import type { NarrowPlace } from '../../net/protocol.gen';
 import { millimetres } from '../../ui/format';
 import { TESTED_WIDTH_M } from './check';
-import { BLANK, type Frame, type Mm, movedInside, pathText, type Shape, withImages } from './drawing';
+import {
+  BLANK,
+  type Frame,
+  type Mm,
+  movedInside,
+  pathText,
+  type Shape,
+  withImages,
+} from './drawing';
 import type { Editor } from './editor';
 import { pending, shift } from './editing';
 import { onKey } from './keys';

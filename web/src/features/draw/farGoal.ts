@@ -1,11 +1,13 @@
 // A goal for a map that has none: the place with the longest way from the bead. Pure.
 
 import { distance, insidePolygon, type Vec2 } from '../../lab/geometry';
-import type { Polygon, Rect } from '../../net/protocol.gen';
+import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
 
 const STEP_M = 0.01;
 /** From walls and border; half the narrowest channel in which the controllers are tested. */
 const ROOM_M = 0.0175;
+/** From the border, so that the mark of the goal is whole. */
+const GOAL_ROOM_M = 1.2 * GOAL_RADIUS_M;
 
 function toSegment(at: Vec2, a: Vec2, b: Vec2): number {
   const [right, up] = [b[0] - a[0], b[1] - a[1]];
@@ -54,6 +56,11 @@ export function farGoal(
       if (free.delete(next)) reached.push(next);
     }
   }
-  const last = reached.at(-1);
+  const isInside = (cell: number): boolean => {
+    const [x, y] = place(cell);
+    const [left, right] = [x - workspace.x_min_m, workspace.x_max_m - x];
+    return Math.min(left, right, y - workspace.y_min_m, workspace.y_max_m - y) > GOAL_ROOM_M;
+  };
+  const last = reached.findLast(isInside) ?? reached.at(-1);
   return last === undefined || last === first ? undefined : place(last);
 }

@@ -19,5 +19,9 @@ it('says the size of each kind of shape in its middle', () => {
     [30, 40],
     [30, 90],
   ] as const;
-  expect(measured({ kind: 'wall', points, width_mm: 14 }).text).toBe('100 mm');
+  // Half of the way along it.
+  expect(measured({ kind: 'wall', points, width_mm: 14 })).toEqual({
+    at: [30, 40],
+    text: '100 mm',
+  });
 });

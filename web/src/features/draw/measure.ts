@@ -10,6 +10,20 @@ function sides(values: readonly number[]): readonly [middle: number, length: num
   return [(least + most) / 2, most - least];
 }
 
+/** The place on a line at a distance from its beginning. */
+function halfway(points: readonly Mm[], steps: readonly number[], at_mm: number): Mm | undefined {
+  let left_mm = at_mm;
+  for (const [index, step] of steps.entries()) {
+    const [from, to] = [points[index], points[index + 1]];
+    if (from && to && step > 0 && left_mm <= step) {
+      const share = left_mm / step;
+      return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+    }
+    left_mm -= step;
+  }
+  return points[0];
+}
+
 export function measured(shape: Shape): { readonly at: Mm; readonly text: string } {
   if (shape.kind === 'post') {
     return { at: shape.center, text: `⌀ ${whole(2 * shape.radius_mm)} mm` };
@@ -20,9 +34,7 @@ export function measured(shape: Shape): { readonly at: Mm; readonly text: string
   if (shape.kind === 'area') {
     return { at: [x, y], text: `${whole(width_mm)} × ${whole(height_mm)} mm` };
   }
-  const length_mm = points.reduce(
-    (sum, to, index) => sum + distance(points[Math.max(0, index - 1)] ?? to, to),
-    0,
-  );
-  return { at: [x, y], text: `${whole(length_mm)} mm` };
+  const steps = points.slice(1).map((to, index) => distance(points[index] ?? to, to));
+  const length_mm = steps.reduce((sum, one) => sum + one, 0);
+  return { at: halfway(points, steps, length_mm / 2) ?? [x, y], text: `${whole(length_mm)} mm` };
 }

@@ -38,7 +38,8 @@ export function Facts(props: {
         <Show when={newest()}>
           {(last) => (
             <>
-              Examined after {counted(last().update, 'update')}, {intervalWords(last().examined)}.{' '}
+              Examined after {counted(last().update, 'update')}, {intervalWords(last().examined)}
+              .{' '}
             </>
           )}
         </Show>

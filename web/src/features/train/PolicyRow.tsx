@@ -117,9 +117,7 @@ export function PolicyRow(props: RowProps): JSX.Element {
           />
         </Show>
       </div>
-      <Show when={props.policy.origin}>
-        {(origin) => <Origin {...props} origin={origin()} />}
-      </Show>
+      <Show when={props.policy.origin}>{(origin) => <Origin {...props} origin={origin()} />}</Show>
     </li>
   );
 }

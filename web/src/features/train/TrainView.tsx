@@ -91,14 +91,18 @@ export default function TrainView(props: {
     () => watched().map(({ id }) => id),
     (id) => {
       const first = byId(id);
-      return (
-        first && createWatch(createMemo((last: TrainingSummary) => byId(id) ?? last, first))
-      );
+      return first && createWatch(createMemo((last: TrainingSummary) => byId(id) ?? last, first));
     },
   );
   const watches = createMemo(() => made().filter((one) => one !== undefined));
   const isForm = (): boolean => isNew() || all().length === 0;
   let entries: HTMLUListElement | undefined;
+  let form: HTMLElement | undefined;
+  let newButton: HTMLButtonElement | undefined;
+  const closeForm = (): void => {
+    setNew(false);
+    newButton?.focus();
+  };
   const details = (): JSX.Element => (
     <>
       <For each={watches()}>
@@ -150,8 +154,10 @@ export default function TrainView(props: {
         <header>
           <h3>Trainings</h3>
           <SmallButton
+            ref={newButton}
             onClick={() => {
               setNew(true);
+              form?.querySelector('select')?.focus();
             }}
           >
             <Icon of={Plus} />
@@ -228,22 +234,17 @@ export default function TrainView(props: {
           {/* With the list, so that nothing moves when that arrives. */}
           <Show when={lab.catalog.trainings()}>
             <Show when={isForm()} fallback={details()}>
-              <section>
+              <section ref={form}>
                 <header>
                   <h2>{all().length === 0 ? 'Train a policy of your own' : 'New training'}</h2>
                   <Show when={all().length > 0}>
-                    <CloseButton label="Close the form" onClose={() => setNew(false)} />
+                    <CloseButton label="Close the form" onClose={closeForm} />
                   </Show>
                 </header>
                 <Show when={all().length === 0}>
                   <Intro />
                 </Show>
-                <StartPanel
-                  lab={lab}
-                  onStarted={() => {
-                    setNew(false);
-                  }}
-                />
+                <StartPanel lab={lab} onStarted={closeForm} />
               </section>
             </Show>
             <PoliciesPanel lab={lab} onUse={use} />
