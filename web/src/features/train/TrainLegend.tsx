@@ -2,6 +2,7 @@
 
 import { For, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
+import './legend.css';
 
 export function ValueScale(props: {
   range: readonly [number, number] | undefined;

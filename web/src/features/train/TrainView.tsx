@@ -208,8 +208,10 @@ export default function TrainView(props: {
       }
       over={
         <p class="about">
-          What the policy expects from each place: the sum of all later rewards on the route to the
-          goal.
+          <Show when={watches().length > 0}>
+            What the policy expects from each place: the sum of all later rewards on the route to
+            the goal.
+          </Show>
         </p>
       }
       under={
