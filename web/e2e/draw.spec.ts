@@ -17,7 +17,7 @@ test('draws a maze, corrects what the check finds, and RL delivers on it', async
   await drawAlong(page, [-10, 210], [0, 380], [-5, 540]);
   await expect(check(lab)).toContainText('2 separate regions');
   // A door, first too narrow, then wide enough.
-  await lab.button('Erase').click();
+  await lab.radio('Erase').click();
   await page.getByRole('slider', { name: 'Width' }).fill('30');
   await drawAlong(page, [-40, 380], [40, 380]);
   await expect(check(lab)).not.toContainText('regions');
@@ -56,7 +56,7 @@ test('goes on with a shipped map, undoes, and downloads what the server reads', 
   await expect(check(lab)).toContainText('9 walls');
   await lab.button('Mirror left and right').click();
   await page.keyboard.press('Control+z');
-  await lab.button('Post').click();
+  await lab.radio('Post').click();
   await drawAlong(page, [0, 375], [0.1, 375]);
   await page.keyboard.press('Control+z');
   await page.keyboard.press('Control+Shift+z');

@@ -27,6 +27,8 @@ test.afterEach(async ({ page, server }) => {
 const plan = (lab: Lab) => lab.page.getByRole('application', { name: /^Plan of / });
 const entry = (lab: Lab, name: string) =>
   lab.page.locator('.training-entry').filter({ has: lab.page.getByText(name, { exact: true }) });
+/** Of the shown training. */
+const head = (lab: Lab) => lab.page.locator('.training-head');
 const submit = (lab: Lab) =>
   lab.page.locator('.train-form').getByRole('button', { name: /^Train / });
 
@@ -44,8 +46,8 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   await fillIn(lab, 'watched');
   await submit(lab).click();
   await expect(entry(lab, 'watched')).toContainText(/takes images|learns/);
-  await expect(page.locator('.train-settings')).not.toHaveAttribute('open');
-  await expect(page.locator('.train-now')).toContainText(/learns, \d+ %/, { timeout: TRAIN_MS });
+  await expect(page.locator('.train-form')).toHaveCount(0);
+  await expect(head(lab)).toContainText(/learns[^]*\d+ %/, { timeout: TRAIN_MS });
   await page.locator('.train-canvas[data-update]').waitFor({ timeout: TRAIN_MS });
   await expect(page.getByTestId('train-starts')).toContainText(/^\d+ of \d+$/);
   // A cell by keyboard: its value and its fan.
@@ -71,13 +73,14 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   await viewer.isRole('viewer');
   await viewer.view('Train').click();
   await expect(plan(viewer)).toBeVisible();
-  await expect(submit(viewer)).toBeDisabled();
   await expect(viewer.page.getByRole('button', { name: 'Remove watched' })).toBeDisabled();
+  await viewer.button('New training').click();
+  await expect(submit(viewer)).toBeDisabled();
   await viewer.page.close();
   // Its policy is in the table, with its origin.
   await page.getByText('How watched was trained').click();
   await expect(page.locator('.policies')).toContainText(`updates ${FEW_UPDATES}`);
-  await entry(lab, 'watched').getByRole('button', { name: 'Use it: watched' }).click();
+  await head(lab).getByRole('button', { name: 'Use it: watched' }).click();
   await until('the policy', () => lab.scene.parameters.rl_policy.startsWith('watched@'));
   await until('the map', () => lab.scene.map === 'u-turn' && lab.state.controller === 'rl');
   await expect(lab.view('Lab')).toHaveAttribute('aria-current', 'page');
@@ -126,7 +129,9 @@ test(
     // So few updates teach the steps, but not yet all values.
     expect(order, 'rank correlation').toBeGreaterThan(0.5);
     // The table of policies has such a button, too.
-    await trained.getByRole('button', { name: /^Use it/ }).click();
+    await head(lab)
+      .getByRole('button', { name: /^Use it/ })
+      .click();
     await until('RL', () => lab.state.controller === 'rl');
     await expect(page.locator('.about-controller')).toContainText('my-drawn-by-hand');
     await lab.speed('8');
@@ -150,10 +155,12 @@ test('pauses, resumes, cancels and removes a training', LONG, async ({ lab, serv
   await lab.view('Train').click();
   await expect(entry(lab, 'two')).toContainText('Waits until one is finished.');
   await expect(entry(lab, 'one')).toContainText('learns', { timeout: TRAIN_MS });
+  await entry(lab, 'one').getByRole('button', { name: /^one/ }).click();
   await lab.button('Pause one').click();
-  await expect(entry(lab, 'one')).toContainText(/pausing…|Paused after/);
-  await expect(entry(lab, 'one')).toContainText('Paused after');
+  await expect(head(lab)).toContainText(/pausing…|Paused after/);
+  await expect(head(lab)).toContainText('Paused after');
   await lab.button('Resume one').click();
+  await entry(lab, 'two').getByRole('button', { name: /^two/ }).click();
   await lab.button('Cancel two').click();
   await lab.button('Keep two').click();
   await lab.button('Cancel two').click();
@@ -173,6 +180,7 @@ test('shows two trainings side by side', LONG, async ({ lab, server }) => {
   await lab.view('Train').click();
   await lab.button('Compare with left').click();
   await expect(page.locator('.train-pane')).toHaveCount(2);
+  await lab.button('Curves').click();
   await expect(page.locator('.train-keys .key')).toHaveText(['right', 'left']);
   // The same place in both.
   await plan(lab).first().focus();
@@ -215,6 +223,6 @@ test('downloads, uploads, renames and deletes a policy', LONG, async ({ lab, ser
   await lab.button('Delete copied').click();
   await expect(page.locator('.policies .confirm')).toContainText('The laboratory uses it. Delete?');
   await lab.button('Yes, delete copied').click();
-  await expect(entry(lab, 'copied')).toContainText('policy deleted');
+  await expect(head(lab)).toContainText('policy deleted');
   await expect(lab.button('Use it: copied')).toHaveCount(0);
 });

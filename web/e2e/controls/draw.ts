@@ -4,14 +4,14 @@ import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
 import { DRAWING, openMap } from '../support/maps';
 import { must, until } from '../support/wait';
-import { type Row, type Section, downloads, isChecked, valueOf, view } from './row';
+import { type Row, type Section, downloads, isChecked, isPressed, valueOf, view } from './row';
 
 const shapes = (lab: Lab) =>
   lab.page
     .locator('.draw-shape:not(.begun, .rubber)')
     .evaluateAll((all) => all.map((one) => one.getAttribute('d')));
 const corners = (lab: Lab) => lab.page.locator('.draw-corner').count();
-const tool = (name: string) => (lab: Lab) => lab.button(name).click();
+const tool = (name: string) => (lab: Lab) => lab.radio(name).click();
 
 /** The pixel of a place in the drawing, as shares of its sides. */
 async function pixel(lab: Lab, right: number, down: number): Promise<[number, number]> {
@@ -22,23 +22,23 @@ async function pixel(lab: Lab, right: number, down: number): Promise<[number, nu
 }
 
 async function putPost(lab: Lab) {
-  await lab.button('Post').click();
+  await lab.radio('Post').click();
   await lab.page.mouse.click(...(await pixel(lab, 0.4, 0.5)));
 }
 
 const selectPost = async (lab: Lab) => {
   await putPost(lab);
-  await lab.button('Move').click();
+  await lab.radio('Move').click();
   await lab.page.mouse.click(...(await pixel(lab, 0.4, 0.5)));
 };
 
 async function beginWall(lab: Lab) {
-  await lab.button('Wall').click();
+  await lab.radio('Wall').click();
   await lab.page.mouse.click(...(await pixel(lab, 0.2, 0.2)));
 }
 
 const chosen = (from: string): Row => ({
-  see: (_lab, locator) => locator.getAttribute('aria-pressed'),
+  see: isChecked,
   ready: tool(from),
 });
 
@@ -50,14 +50,14 @@ export const DRAW: Section = {
       see: (lab) => lab.page.locator('.draw-surface').count(),
       ready: view('Evaluate'),
     },
-    'button Wall': chosen('Post'),
-    'button Post': chosen('Wall'),
-    'button Area': chosen('Wall'),
-    'button Erase': chosen('Wall'),
-    'button Move': chosen('Wall'),
+    'radio Wall': chosen('Post'),
+    'radio Post': chosen('Wall'),
+    'radio Area': chosen('Wall'),
+    'radio Erase': chosen('Wall'),
+    'radio Move': chosen('Wall'),
     'slider Width': { see: valueOf, ready: tool('Wall') },
     'slider Diameter': { see: valueOf, ready: tool('Post') },
-    'checkbox Snap to 5 mm': { see: isChecked, isToggle: true },
+    'button Snap to 5 mm': { see: isPressed, isToggle: true },
     'combobox Symmetry': {
       see: valueOf,
       after: (lab) => lab.label('Symmetry').selectOption('none'),
@@ -87,7 +87,7 @@ export const DRAW: Section = {
     'button Mirror top and bottom': {
       see: shapes,
       ready: async (lab) => {
-        await lab.button('Post').click();
+        await lab.radio('Post').click();
         await lab.page.mouse.click(...(await pixel(lab, 0.5, 0.2)));
       },
     },

@@ -39,6 +39,7 @@ export interface Section {
 }
 
 export const isChecked = (_lab: Lab, locator: Locator) => locator.isChecked();
+export const isPressed = (_lab: Lab, locator: Locator) => locator.getAttribute('aria-pressed');
 export const valueOf = (_lab: Lab, locator: Locator) => locator.inputValue();
 export const expanded = (_lab: Lab, locator: Locator) => locator.getAttribute('aria-expanded');
 export const dialogs = (lab: Lab) => lab.page.getByRole('dialog').count();

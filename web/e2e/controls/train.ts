@@ -3,26 +3,30 @@
 import { test } from '@playwright/test';
 import type { Lab } from '../support/lab';
 import { TRAIN_MS, clearTrainings, reachStage, startTraining } from '../support/trainings';
-import { type Row, type Section, downloads, isChecked, valueOf, view } from './row';
+import { type Row, type Section, downloads, isChecked, isPressed, valueOf, view } from './row';
 
 const originOf = (lab: Lab) => new URL(lab.page.url()).origin;
 
-const typed: Row = { see: valueOf };
-const chosen: Row = { see: valueOf };
-const box: Row = { see: isChecked, isToggle: true };
+const toggle: Row = { see: isPressed, isToggle: true };
+const value: Row = { see: valueOf };
 const shownUpdate = (lab: Lab) => lab.page.getByTestId('train-update').first().textContent();
-const shownName = (lab: Lab) => lab.page.locator('.train-pane h3').first().textContent();
+const shownName = (lab: Lab) => lab.page.locator('.training-head h2').first().textContent();
 const panes = (lab: Lab) => lab.page.locator('.train-pane').count();
 
 const isOpen = (lab: Lab) =>
   lab.page.locator('.train-settings').evaluate((one: HTMLDetailsElement) => one.open);
 
+const openForm = (lab: Lab) => lab.button('New training').click();
+const forms = (lab: Lab) => lab.page.locator('.train-form').count();
+
 async function openSettings(lab: Lab) {
+  await openForm(lab);
   await lab.page.locator('.train-settings').evaluate((one: HTMLDetailsElement) => {
     one.open = true;
   });
 }
 
+const inForm = (row: Row): Row => ({ ...row, ready: openForm });
 const setting = (row: Row): Row => ({ ...row, ready: openSettings });
 
 /** In turn: the first run of the section is by mouse, and each has its own server or an empty list. */
@@ -41,6 +45,10 @@ export const TRAIN: Section = {
     await lab.view('Train').click();
     await lab.page.locator('.train-canvas[data-update]').waitFor();
   },
+  rowReady: async (lab) => {
+    const close = lab.button('Close the form');
+    if (await close.isVisible()) await close.click();
+  },
   after: async (lab) => {
     await clearTrainings(lab.page.request, originOf(lab));
   },
@@ -49,26 +57,29 @@ export const TRAIN: Section = {
       see: (lab) => lab.page.locator('main.train').count(),
       ready: view('Evaluate'),
     },
-    'combobox Map': chosen,
+    'button New training': { see: forms },
+    'button Close the form': { see: forms, ready: openForm },
+    'combobox Map': inForm(value),
     'textbox Policy name': {
       see: valueOf,
+      ready: openForm,
       act: async (input, locator) => {
         await input.type(locator, `named-by-${input.name}`);
       },
     },
-    'combobox Start from': chosen,
-    'combobox Recipe': chosen,
-    'summary Settings': { see: isOpen, isToggle: true },
-    'spinbutton Updates': setting(typed),
-    'spinbutton Learning rate': setting(typed),
-    'spinbutton Discount': setting(typed),
-    'spinbutton Exploration': setting(typed),
-    'checkbox Noisy layers': setting(box),
-    'spinbutton Progress reward': setting(typed),
-    'spinbutton Step penalty': setting(typed),
-    'spinbutton Steps of a return': setting(typed),
-    'combobox Fusion': setting(chosen),
-    'spinbutton Seed': setting(typed),
+    'combobox Start from': inForm(value),
+    'combobox Recipe': inForm(value),
+    'summary Settings': inForm({ see: isOpen, isToggle: true }),
+    'spinbutton Updates': setting(value),
+    'spinbutton Learning rate': setting(value),
+    'spinbutton Discount': setting(value),
+    'spinbutton Exploration': setting(value),
+    'checkbox Noisy layers': setting({ see: isChecked, isToggle: true }),
+    'spinbutton Progress reward': setting(value),
+    'spinbutton Step penalty': setting(value),
+    'spinbutton Steps of a return': setting(value),
+    'combobox Fusion': setting(value),
+    'spinbutton Seed': setting(value),
     'button Reset the settings': {
       see: (lab) => lab.spin('Seed').inputValue(),
       ready: async (lab) => {
@@ -76,10 +87,11 @@ export const TRAIN: Section = {
         await lab.spin('Seed').fill('7');
       },
     },
-    'checkbox Values': box,
-    'checkbox Best steps': box,
-    'checkbox Failing starts': box,
-    'checkbox Episodes': box,
+    'button Values': toggle,
+    'button Best steps': toggle,
+    'button Failing starts': toggle,
+    'button Episodes': toggle,
+    'button Curves': toggle,
     'application /^Plan of /': {
       see: (_lab, locator) => locator.getAttribute('data-cell'),
       act: async (input, locator) => {
@@ -96,7 +108,7 @@ export const TRAIN: Section = {
       },
     },
     'slider /^Value map of /': { see: shownUpdate },
-    'button /^(Play|Stop) the value maps of /': {
+    'button /^(Replay|Stop) the value maps of /': {
       see: shownUpdate,
       ready: (lab) =>
         lab.page
@@ -105,7 +117,7 @@ export const TRAIN: Section = {
           .click(),
     },
     'button /^Follow the newest value map of /': {
-      see: (_lab, locator) => locator.getAttribute('aria-pressed'),
+      see: isPressed,
       ready: async (lab) => {
         await lab.page.getByRole('slider').first().focus();
         await lab.page.keyboard.press('ArrowLeft');
@@ -121,6 +133,11 @@ export const TRAIN: Section = {
     'link /^Download /': { see: downloads },
     'button /^Train ./': { elsewhere: 'trains a policy, watches it and uses it' },
     'summary /^How .* was trained$/': { elsewhere: 'trains a policy, watches it and uses it' },
+    'summary How to read it': {
+      see: (lab) =>
+        lab.page.locator('.train-readings').evaluate((one: HTMLDetailsElement) => one.open),
+      isToggle: true,
+    },
     'summary How does it learn?': {
       see: (lab) =>
         lab.page.locator('.train-intro details').evaluate((one: HTMLDetailsElement) => one.open),

@@ -13,18 +13,28 @@ import {
 import type { NarrowPlace } from '../../net/protocol.gen';
 import { millimetres } from '../../ui/format';
 import { TESTED_WIDTH_M } from './check';
-import { type Frame, type Mm, movedInside, pathText, type Shape, withImages } from './drawing';
+import {
+  BLANK,
+  type Frame,
+  type Mm,
+  movedInside,
+  pathText,
+  type Shape,
+  withImages,
+} from './drawing';
 import type { Editor } from './editor';
 import { pending, shift } from './editing';
 import { onKey } from './keys';
 import { createPointer } from './pointer';
-import { HELP_ID } from './Toolbar';
+import { measured } from './measure';
+import { HELP_ID } from './tools';
 
 const GRID_MM = 50;
 const FONT_PX = 12;
 const CORNER_PX = 4;
-/** Around the frame, so that strokes at the border can be seen whole. */
-const MARGIN_MM = 12;
+const RIM_PX = 1.5;
+/** Of the wall around the frame, as in draw.css. */
+const BORDER_MM = 6;
 
 function* gridLines(from_mm: number, length_mm: number): Generator<number> {
   const first = Math.ceil(from_mm / GRID_MM) * GRID_MM;
@@ -53,6 +63,33 @@ function Drawn(props: { shape: Shape; class?: string }): JSX.Element {
   );
 }
 
+/** The edge of a shape, below all shapes: where walls meet, they are one. */
+function Rim(props: { shape: Shape; mmPerPx: number; isSelected: boolean }): JSX.Element {
+  const width_mm = (): number => (props.shape.kind === 'wall' ? props.shape.width_mm : 0);
+  const rim_mm = (): number => (props.isSelected ? 2 : 1) * RIM_PX * props.mmPerPx;
+  return (
+    <path
+      d={pathText(props.shape)}
+      class="draw-rim"
+      classList={{ selected: props.isSelected }}
+      stroke-width={width_mm() + 2 * rim_mm()}
+    />
+  );
+}
+
+function Label(props: { at: Mm; mmPerPx: number; children: JSX.Element }): JSX.Element {
+  return (
+    <text
+      class="draw-label"
+      x={props.at[0]}
+      y={props.at[1]}
+      font-size={String(FONT_PX * props.mmPerPx)}
+    >
+      {props.children}
+    </text>
+  );
+}
+
 function Passage(props: {
   place: NarrowPlace;
   isNarrowest: boolean;
@@ -64,9 +101,9 @@ function Passage(props: {
     <Show when={isTight() || props.isNarrowest}>
       <g class="draw-passage" classList={{ tight: isTight() }} data-testid="passage">
         <circle cx={at()[0]} cy={at()[1]} r={500 * props.place.width_m} />
-        <text x={at()[0]} y={at()[1]} font-size={String(FONT_PX * props.mmPerPx)}>
+        <Label at={at()} mmPerPx={props.mmPerPx}>
           {millimetres(props.place.width_m)}
-        </text>
+        </Label>
       </g>
     </Show>
   );
@@ -97,16 +134,44 @@ export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[
     const shape = pending(now, editor.pointer());
     return shape ? withImages(shape, now.drawing.frame, now.symmetry) : [];
   });
+  /** The frame fills the box of the map, and its border is around it. */
+  const border_mm = createMemo(() => {
+    const { width_mm, height_mm } = frame();
+    const { width_mm: usual_mm, height_mm: high_mm } = BLANK.frame;
+    return BORDER_MM * Math.max(width_mm / usual_mm, height_mm / high_mm);
+  });
+  const rectangle = (more_mm = 0) => {
+    const { x_mm, y_mm, width_mm, height_mm } = frame();
+    return {
+      x: x_mm - more_mm,
+      y: y_mm - more_mm,
+      width: width_mm + 2 * more_mm,
+      height: height_mm + 2 * more_mm,
+    };
+  };
   const viewBox = (): string => {
-    const { x_mm, y_mm, width_mm, height_mm } = frame();
-    const [x, y] = [x_mm - MARGIN_MM, y_mm - MARGIN_MM];
-    return `${x} ${y} ${width_mm + 2 * MARGIN_MM} ${height_mm + 2 * MARGIN_MM}`;
+    const { x, y, width, height } = rectangle(border_mm());
+    return `${x} ${y} ${width} ${height}`;
   };
-  const rectangle = () => {
-    const { x_mm, y_mm, width_mm, height_mm } = frame();
-    return { x: x_mm, y: y_mm, width: width_mm, height: height_mm };
-  };
+  /** Between the frame and the edge, over the ends of the rims. */
+  const border = (): string =>
+    [rectangle(border_mm()), rectangle()]
+      .map(({ x, y, width, height }) => `M${x} ${y}h${width}v${height}h${-width}z`)
+      .join('');
   const isErasing = (): boolean => editor.editing().tool === 'erase';
+  const isSelected = (index: number): boolean => editor.editing().selected === index;
+  const shownAt = (shape: Shape, index: number): Shape => {
+    const now = isSelected(index) ? by() : undefined;
+    return now ? movedInside(shape, now, frame()) : shape;
+  };
+  /** What is begun, otherwise what is selected. */
+  const size = createMemo(() => {
+    if (isErasing()) return undefined;
+    const selected = editor.editing().selected ?? -1;
+    const shape = shapes()[selected];
+    const one = begun()[0] ?? (shape && shownAt(shape, selected));
+    return one && measured(one);
+  });
   /** The eraser's circle, or the place of a corner or a post. */
   const cursorRadius = (): number =>
     isErasing() ? editor.editing().size_mm.erase / 2 : CORNER_PX * mmPerPx();
@@ -126,27 +191,34 @@ export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[
       <rect class="draw-floor" {...rectangle()} />
       <Grid frame={frame()} />
       <For each={shapes()}>
-        {(shape, index) => {
-          const isSelected = (): boolean => editor.editing().selected === index();
-          const shown = (): Shape => {
-            const now = isSelected() ? by() : undefined;
-            return now ? movedInside(shape, now, frame()) : shape;
-          };
-          return <Drawn shape={shown()} class={isSelected() ? 'selected' : ''} />;
-        }}
+        {(shape, index) => (
+          <Rim
+            shape={shownAt(shape, index())}
+            mmPerPx={mmPerPx()}
+            isSelected={isSelected(index())}
+          />
+        )}
       </For>
+      <path class="draw-border" d={border()} />
+      <For each={shapes()}>{(shape, index) => <Drawn shape={shownAt(shape, index())} />}</For>
       <For each={begun()}>
         {(shape) => <Drawn shape={shape} class={isErasing() ? 'rubber' : 'begun'} />}
       </For>
       <For each={editor.editing().corners}>
         {([x, y]) => <circle class="draw-corner" cx={x} cy={y} r={CORNER_PX * mmPerPx()} />}
       </For>
-      <rect class="draw-border" {...rectangle()} />
       <For each={props.passages}>
         {(place, index) => (
           <Passage place={place} isNarrowest={index() === 0} mmPerPx={mmPerPx()} />
         )}
       </For>
+      <Show when={size()}>
+        {(one) => (
+          <Label at={one().at} mmPerPx={mmPerPx()}>
+            {one().text}
+          </Label>
+        )}
+      </Show>
       <Show when={editor.pointer()}>
         {(at) => <circle class="draw-cursor" cx={at()[0]} cy={at()[1]} r={cursorRadius()} />}
       </Show>

@@ -3,7 +3,7 @@
 import type { Accessor } from 'solid-js';
 import { createAnswerFrom } from '../../net/requests';
 import type { MapCheck } from '../../net/protocol.gen';
-import { checkOf, faultWords, reportWords } from '../../lab/maps';
+import { checkOf, faultWords, isOutOfReach, reportWords } from '../../lab/maps';
 
 const CHECKS_PER_S = 4;
 /** The mazes on which the controllers are tested have no narrower channels. */
@@ -23,6 +23,16 @@ export function checkWords(check: MapCheck): Remark[] {
     remarks.push({ text, isWarning: true });
   }
   return remarks;
+}
+
+/** In a few words, and whether it can be used as it is. */
+export function verdictOf(check: MapCheck): { readonly text: string; readonly isGood: boolean } {
+  const { regions, narrowest } = check;
+  if (regions === 0) return { text: 'no room for the bead', isGood: false };
+  if (regions > 1) return { text: 'separate parts', isGood: false };
+  if (isOutOfReach(check)) return { text: 'out of reach', isGood: false };
+  if ((narrowest?.width_m ?? Infinity) < TESTED_WIDTH_M) return { text: 'narrow', isGood: false };
+  return { text: 'the bead fits through', isGood: true };
 }
 
 /** Asks again when the connection comes back. */

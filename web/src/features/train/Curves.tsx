@@ -17,8 +17,8 @@ export interface Curve {
 }
 
 const STYLES = [
-  { color: 'magnet-line', isDashed: false },
-  { color: 'bead-line', isDashed: true },
+  { color: 'rl', isDashed: false },
+  { color: 'ink', isDashed: true },
 ] as const;
 
 export function Curves(props: {

@@ -3,6 +3,7 @@
 import { Show, createMemo, type JSX } from 'solid-js';
 import { intervalWords, isActive, shareWords } from '../../lab/trainingStage';
 import type { TrainingFrame, TrainingPoint, TrainingSummary } from '../../net/protocol.gen';
+import { Fact } from '../../ui/Fact';
 import { counted, fixed } from '../../ui/format';
 import { newestExamination } from './curves';
 import { startsThat } from './grid';
@@ -13,50 +14,36 @@ export function Facts(props: {
   frame: TrainingFrame | undefined;
 }): JSX.Element {
   const newest = createMemo(() => newestExamination(props.summary, props.points));
+  const starts = (): string => {
+    const { frame } = props;
+    return frame ? `${startsThat(frame, 'reached').length} of ${frame.endings.length}` : '–';
+  };
+  const examined = (): string => {
+    const last = newest();
+    if (last) return shareWords(last.examined);
+    return isActive(props.summary) ? 'not examined yet' : '–';
+  };
   const correlation = (): string => {
     const value = props.frame?.rank_correlation ?? null;
     return value === null ? '–' : fixed(value, 3);
   };
   return (
     <>
-      <dl class="train-facts">
-        <div>
-          <dt>This goal</dt>
-          <dd class="number">
-            <Show when={props.frame} fallback="–">
-              {(frame) => (
-                <>
-                  <strong data-testid="train-starts">
-                    {startsThat(frame(), 'reached').length} of {frame().endings.length}
-                  </strong>{' '}
-                  starts reach it
-                </>
-              )}
-            </Show>
-          </dd>
-        </div>
-        <div>
-          <dt>Random starts and goals</dt>
-          <dd class="number">
-            <Show when={newest()} fallback={isActive(props.summary) ? 'not examined yet' : '–'}>
-              {(last) => (
-                <span title={intervalWords(last().examined)}>
-                  <strong data-testid="train-examined">{shareWords(last().examined)}</strong>{' '}
-                  reached after {counted(last().update, 'update')}
-                </span>
-              )}
-            </Show>
-          </dd>
-        </div>
-        <div>
-          <dt>Rank correlation</dt>
-          <dd class="number">
-            <strong data-testid="train-correlation">{correlation()}</strong>
-          </dd>
-        </div>
+      <dl class="facts">
+        <Fact name="This goal: starts that reach it" value={starts()} testid="train-starts" />
+        <Fact name="Random starts and goals" value={examined()} testid="train-examined" />
+        <Fact name="Rank correlation" value={correlation()} testid="train-correlation" />
       </dl>
       <p class="rule">
-        The value map shows one example goal
+        <Show when={newest()}>
+          {(last) => (
+            <>
+              Examined after {counted(last().update, 'update')}, {intervalWords(last().examined)}
+              .{' '}
+            </>
+          )}
+        </Show>
+        The map shows one example goal
         {props.summary.query.goal_m === null ? ', in a far corner' : ''}. The policy learns all
         goals.
       </p>

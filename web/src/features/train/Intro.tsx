@@ -32,25 +32,24 @@ function HowItLearns(): JSX.Element {
 
 export function Intro(): JSX.Element {
   return (
-    <section class="panel train-intro" aria-label="What happens here">
-      <h2>Train a policy of your own</h2>
+    <div class="train-intro" role="region" aria-label="What happens here">
       <HowItLearns />
       <p>
         Press <strong>Train</strong>. With the recipe <em>Quick</em> it takes a few minutes, and you
         can watch it here. The finished policy carries the bead in the laboratory.
       </p>
-    </section>
+    </div>
   );
 }
 
 /** The same after the first training. */
 export function FoldedIntro(): JSX.Element {
   return (
-    <section class="panel train-intro" aria-label="What happens here">
+    <div class="train-intro" role="region" aria-label="What happens here">
       <details>
         <summary>How does it learn?</summary>
         <HowItLearns />
       </details>
-    </section>
+    </div>
   );
 }

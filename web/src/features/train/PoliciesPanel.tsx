@@ -8,21 +8,11 @@ import type { PolicySummary } from '../../net/protocol.gen';
 import { createAttempt } from '../../ui/attempt';
 import { FileButton } from '../../ui/FileButton';
 import { ForKeyed } from '../../ui/ForKeyed';
-import { Panel } from '../../ui/Panel';
-import { Heads } from '../../ui/Table';
 import { PolicyRow } from './PolicyRow';
 import { policyOf } from './policyUse';
 import { uploadPolicy } from './trainings';
 import './policies.css';
 
-const COLUMNS = [
-  { name: 'Policy' },
-  { name: 'Maps' },
-  { name: 'Updates' },
-  { name: 'Examination', title: 'Episodes that reached their goals' },
-  { name: 'Seed' },
-  { name: 'Use, download, rename and delete', hideName: true },
-] as const;
 const ENDING = '.safetensors';
 
 export function PoliciesPanel(props: {
@@ -39,10 +29,9 @@ export function PoliciesPanel(props: {
     void attempt(uploadPolicy(freeName(wanted, taken), file));
   };
   return (
-    <Panel
-      class="policies"
-      name="Policies"
-      head={
+    <section class="policies" aria-label="Policies">
+      <header>
+        <h3>Policies</h3>
         <FileButton
           {...operatorOnly(lab, 'Adds a policy that was downloaded from a Ferry server')}
           accept={ENDING}
@@ -52,35 +41,25 @@ export function PoliciesPanel(props: {
         >
           Upload policy…
         </FileButton>
-      }
-    >
+      </header>
       <p class="refusal" role="alert">
         {refusal()}
       </p>
-      <div class="policies-frame" tabindex="-1">
-        <table>
-          <thead>
-            <tr>
-              <Heads columns={COLUMNS} />
-            </tr>
-          </thead>
-          <tbody>
-            <ForKeyed each={all()} by={({ name }) => name}>
-              {(policy) => (
-                <PolicyRow
-                  lab={lab}
-                  policy={policy()}
-                  isUsed={used() === policy().name}
-                  attempt={attempt}
-                  onUse={() => {
-                    props.onUse(policy(), policy().maps);
-                  }}
-                />
-              )}
-            </ForKeyed>
-          </tbody>
-        </table>
-      </div>
-    </Panel>
+      <ul>
+        <ForKeyed each={all()} by={({ name }) => name}>
+          {(policy) => (
+            <PolicyRow
+              lab={lab}
+              policy={policy()}
+              isUsed={used() === policy().name}
+              attempt={attempt}
+              onUse={() => {
+                props.onUse(policy(), policy().maps);
+              }}
+            />
+          )}
+        </ForKeyed>
+      </ul>
+    </section>
   );
 }

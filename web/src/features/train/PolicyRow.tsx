@@ -4,7 +4,7 @@ import { Show, createSignal, type JSX } from 'solid-js';
 import type { PolicyOrigin, PolicySummary } from '../../net/protocol.gen';
 import type { Attempt } from '../../ui/attempt';
 import { ConfirmButton } from '../../ui/ConfirmButton';
-import { roughly } from '../../ui/format';
+import { counted, roughly } from '../../ui/format';
 import { SmallButton } from '../../ui/SmallButton';
 import { createRenaming, TitleForm } from '../../ui/TitleForm';
 import { operatorOnly } from '../../lab/operatorOnly';
@@ -65,74 +65,59 @@ export function PolicyRow(props: RowProps): JSX.Element {
   const renaming = createRenaming((next) =>
     next === name() ? Promise.resolve(true) : props.attempt(renamePolicy(name(), next)),
   );
+  const facts = (): string => {
+    const { is_shipped, has_memory, maps, updates, origin, seed } = props.policy;
+    return [
+      is_shipped ? 'shipped' : 'added',
+      ...(has_memory ? ['with a memory'] : []),
+      ...(props.isUsed ? ['used now'] : []),
+      `maps ${maps.join(', ')}`,
+      counted(updates, 'update'),
+      ...(origin ? [`${shareWords(origin.examined)} reached`] : []),
+      `seed ${seed}`,
+    ].join(' · ');
+  };
   return (
-    <>
-      <tr data-policy={name()}>
-        <th scope="row">
-          <Show when={renaming.isOn()} fallback={<span class="policy-name">{name()}</span>}>
-            <TitleForm {...renaming.form} label={`New name of ${name()}`} value={name()} />
-          </Show>
-          <span class="about">
-            {props.policy.is_shipped ? 'shipped' : 'added'}
-            {props.policy.has_memory ? ', with a memory' : ''}
-            {props.isUsed ? ', used now' : ''}
-          </span>
-        </th>
-        <td>{props.policy.maps.join(', ')}</td>
-        <td class="number" data-label="Updates">
-          {props.policy.updates}
-        </td>
-        <td class="number" data-label="Examination">
-          <Show when={props.policy.origin} fallback="–">
-            {(origin) => shareWords(origin().examined)}
-          </Show>
-        </td>
-        <td class="number" data-label="Seed">
-          {props.policy.seed}
-        </td>
-        <td class="policy-deeds">
+    <li data-policy={name()}>
+      <Show when={renaming.isOn()} fallback={<strong class="policy-name">{name()}</strong>}>
+        <TitleForm {...renaming.form} label={`New name of ${name()}`} value={name()} />
+      </Show>
+      <p class="about number">{facts()}</p>
+      <div class="policy-deeds">
+        <SmallButton
+          {...operatorOnly(props.lab)}
+          aria-label={`Use it: ${name()}`}
+          onClick={props.onUse}
+        >
+          Use it
+        </SmallButton>
+        <a
+          class="button small ghost"
+          href={addressOf(policyFile(name()))}
+          download={`${name()}.safetensors`}
+          aria-label={`Download ${name()}`}
+        >
+          Download
+        </a>
+        <Show when={!props.policy.is_shipped}>
           <SmallButton
             {...operatorOnly(props.lab)}
-            aria-label={`Use it: ${name()}`}
-            onClick={props.onUse}
+            {...renaming.button}
+            class="small ghost"
+            aria-label={`Rename ${name()}`}
           >
-            Use it
+            Rename
           </SmallButton>
-          <a
-            class="button small"
-            href={addressOf(policyFile(name()))}
-            download={`${name()}.safetensors`}
-            aria-label={`Download ${name()}`}
-          >
-            Download
-          </a>
-          <Show when={!props.policy.is_shipped}>
-            <SmallButton
-              {...operatorOnly(props.lab)}
-              {...renaming.button}
-              aria-label={`Rename ${name()}`}
-            >
-              Rename
-            </SmallButton>
-            <ConfirmButton
-              {...operatorOnly(props.lab)}
-              verb="Delete"
-              of={name()}
-              warning={props.isUsed ? 'The laboratory uses it.' : undefined}
-              onYes={() => props.attempt(discardPolicy(name()))}
-            />
-          </Show>
-        </td>
-      </tr>
-      <Show when={props.policy.origin}>
-        {(origin) => (
-          <tr class="policy-origin">
-            <td colspan="6">
-              <Origin {...props} origin={origin()} />
-            </td>
-          </tr>
-        )}
-      </Show>
-    </>
+          <ConfirmButton
+            {...operatorOnly(props.lab)}
+            verb="Delete"
+            of={name()}
+            warning={props.isUsed ? 'The laboratory uses it.' : undefined}
+            onYes={() => props.attempt(discardPolicy(name()))}
+          />
+        </Show>
+      </div>
+      <Show when={props.policy.origin}>{(origin) => <Origin {...props} origin={origin()} />}</Show>
+    </li>
   );
 }

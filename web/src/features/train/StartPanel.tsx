@@ -25,6 +25,10 @@ import {
 import { change, choose, compare, draft, edits } from './state';
 import { startTraining } from './trainings';
 
+/** The chosen map, otherwise that of the session. */
+export const mapOf = (lab: Session & Trial): string =>
+  lab.catalog.maps()?.find((one) => one === draft().map) ?? lab.scene()?.map ?? '';
+
 export function StartPanel(props: {
   lab: Session & Trial;
   /** The new training is shown. */
@@ -33,7 +37,7 @@ export function StartPanel(props: {
   const { lab } = props;
   let folded!: HTMLDetailsElement;
   const maps = (): readonly string[] => lab.catalog.maps() ?? [];
-  const map = createMemo(() => maps().find((one) => one === draft().map) ?? lab.scene()?.map ?? '');
+  const map = createMemo(() => mapOf(lab));
   const name = createMemo(() => {
     const taken = [
       ...(lab.catalog.policies() ?? []).map((policy) => policy.name),

@@ -1,6 +1,7 @@
 // The Train view: a policy learns a map, and you watch it.
 
-import { Show, createMemo, type JSX } from 'solid-js';
+import { For, Show, createMemo, mapArray, type JSX } from 'solid-js';
+import { Plus } from 'lucide';
 import type { Addressed, Notices, Session, Trial } from '../../lab/slices';
 import { isActive, milestone, stageSentence } from '../../lab/trainingStage';
 import { createDetail } from '../../net/detail';
@@ -10,30 +11,33 @@ import type {
   TrainingReport,
   TrainingSummary,
 } from '../../net/protocol.gen';
+import { CloseButton } from '../../ui/CloseButton';
 import { ForKeyed } from '../../ui/ForKeyed';
-import { Panel } from '../../ui/Panel';
+import { Icon } from '../../ui/Icon';
+import { ScaleBar } from '../../ui/ScaleBar';
+import { SmallButton } from '../../ui/SmallButton';
+import { IS_TOUCH } from '../../ui/touch';
+import { ViewFrame } from '../../ui/ViewFrame';
+import { CellPanel } from './CellPanel';
 import { colourRange } from './colourRange';
 import { Curves } from './Curves';
 import { withLast } from './curves';
+import { Dock } from './Dock';
+import { Facts } from './Facts';
 import { FoldedIntro, Intro } from './Intro';
+import { HELP_ID, MapPane, PlanPane } from './PlanPane';
 import { PoliciesPanel } from './PoliciesPanel';
 import { policyOf } from './policyUse';
-import { StartPanel } from './StartPanel';
-import { choose, chosen, compare, compared } from './state';
+import { mapOf, StartPanel } from './StartPanel';
+import { choose, chosen, compare, compared, hasCurves, isNew, setNew } from './state';
 import { TrainingEntry } from './TrainingEntry';
-import { LayerToggles, Marks, Readings } from './TrainLegend';
+import { TrainingHead } from './TrainingHead';
+import { Marks, Readings, ValueScale } from './TrainLegend';
 import { TRAININGS } from './trainings';
 import { usePolicy } from './usePolicy';
-import { WatchPane } from './WatchPane';
+import { createWatch } from './watch';
 import './train.css';
 import './watch.css';
-
-/** The new training, the first of the list, and its value map. */
-function bringIntoView(view: HTMLElement, list: HTMLElement): void {
-  // Where the view scrolls itself, its top has both; where the page scrolls, the form is above them.
-  if (view.scrollHeight > view.clientHeight) view.scrollTop = 0;
-  else list.scrollIntoView({ block: 'start' });
-}
 
 export default function TrainView(props: {
   lab: Addressed & Session & Trial & Notices;
@@ -72,97 +76,188 @@ export default function TrainView(props: {
     if (!policy) return;
     void usePolicy(lab, policy, maps);
     lab.address.show('laboratory');
-    // Where the page scrolls, the button may be far down.
-    window.scrollTo(0, 0);
   };
   const evaluate = (summary: TrainingSummary): void => {
     const policy = trained(summary);
     if (!policy) return;
     props.onEvaluate(policy.reference, summary.query.map);
-    window.scrollTo(0, 0);
   };
   const said = createMemo(() => {
     const summary = shown();
     return summary ? milestone(summary, before(summary)) : '';
   });
-  let view!: HTMLElement;
-  let entries!: HTMLElement;
-  return (
-    <main ref={view} class="view train">
-      <div class="train-left">
-        <Panel name="New training">
-          <StartPanel
-            lab={lab}
-            onStarted={() => {
-              bringIntoView(view, entries);
+  /** Each lasts as long as its training is watched. */
+  const made = mapArray(
+    () => watched().map(({ id }) => id),
+    (id) => {
+      const first = byId(id);
+      return first && createWatch(createMemo((last: TrainingSummary) => byId(id) ?? last, first));
+    },
+  );
+  const watches = createMemo(() => made().filter((one) => one !== undefined));
+  const isForm = (): boolean => isNew() || all().length === 0;
+  let entries: HTMLUListElement | undefined;
+  let form: HTMLElement | undefined;
+  let newButton: HTMLButtonElement | undefined;
+  const closeForm = (): void => {
+    setNew(false);
+    newButton?.focus();
+  };
+  const details = (): JSX.Element => (
+    <>
+      <For each={watches()}>
+        {(watch, index) => (
+          <section aria-label={watch.summary().query.name}>
+            <TrainingHead
+              lab={lab}
+              summary={watch.summary()}
+              before={before(watch.summary())}
+              isDeleted={watch.summary().policy !== null && !trained(watch.summary())}
+              isFirst={index() === 0}
+              onUse={() => {
+                use(trained(watch.summary()), [watch.summary().query.map]);
+              }}
+              onEvaluate={() => {
+                evaluate(watch.summary());
+              }}
+              onRemoved={() => entries?.querySelector('button')?.focus()}
+            />
+            <h3>How good is it by now?</h3>
+            <Facts
+              summary={watch.summary()}
+              points={pointsOf(watch.summary())}
+              frame={watch.frame()}
+            />
+            <Show when={watch.cell() !== undefined && watch.cells()}>
+              {(cells) => (
+                <CellPanel
+                  cells={cells()}
+                  cell={watch.cell() ?? 0}
+                  frame={watch.frame()}
+                  frames={watch.read()}
+                  count={watch.count()}
+                  total={watch.summary().updates_total}
+                />
+              )}
+            </Show>
+          </section>
+        )}
+      </For>
+      <section>
+        <h3>Value</h3>
+        <ValueScale range={range()} isGrowing={watched().some(isActive)} />
+        <Marks />
+        <Readings />
+        <FoldedIntro />
+      </section>
+      <section aria-label="Trainings">
+        <header>
+          <h3>Trainings</h3>
+          <SmallButton
+            ref={newButton}
+            onClick={() => {
+              setNew(true);
+              form?.querySelector('select')?.focus();
             }}
-          />
-        </Panel>
-        <Panel ref={(panel) => (entries = panel)} name="Trainings">
+          >
+            <Icon of={Plus} />
+            New training
+          </SmallButton>
+        </header>
+        <ul ref={entries} class="training-entries">
+          <ForKeyed each={all().toReversed()} by={({ id }) => id}>
+            {(summary) => (
+              <TrainingEntry
+                summary={summary()}
+                before={before(summary())}
+                isShown={shownId() === summary().id}
+                isCompared={beside()?.id === summary().id}
+                onChoose={() => {
+                  const { id } = summary();
+                  if (compared() === id) compare(undefined);
+                  choose(id);
+                }}
+                onCompare={() => {
+                  const { id } = summary();
+                  choose(shownId());
+                  compare(beside()?.id === id ? undefined : id);
+                }}
+              />
+            )}
+          </ForKeyed>
+        </ul>
+      </section>
+    </>
+  );
+  return (
+    <ViewFrame
+      class="train"
+      map={
+        <div class="train-panes" data-count={watches().length}>
+          <For each={watches()} fallback={<MapPane map={mapOf(lab)} />}>
+            {(watch) => (
+              <PlanPane
+                watch={watch}
+                sentence={stageSentence(watch.summary(), before(watch.summary()))}
+                range={range()}
+                isNamed={watches().length > 1}
+              />
+            )}
+          </For>
+        </div>
+      }
+      over={
+        <p class="about">
+          <Show when={watches().length > 0}>
+            What the policy expects from each place: the sum of all later rewards on the route to
+            the goal.
+          </Show>
+        </p>
+      }
+      under={
+        <>
+          <p id={HELP_ID} class="train-help">
+            <Show when={watches().length > 0} fallback="The map of the new training.">
+              {IS_TOUCH ? 'Tap a cell' : 'Click a cell, or use the arrow keys on the plan,'} to see
+              how its value changed.
+            </Show>
+          </p>
+          <Show when={watches().length < 2}>
+            <ScaleBar />
+          </Show>
+        </>
+      }
+      inspectorName="Training"
+      inspector={
+        <>
           <p class="visually-hidden" role="status">
             {said()}
           </p>
-          <ul class="training-entries">
-            <ForKeyed each={all().toReversed()} by={({ id }) => id}>
-              {(summary) => (
-                <TrainingEntry
-                  lab={lab}
-                  summary={summary()}
-                  before={before(summary())}
-                  isShown={shownId() === summary().id}
-                  isCompared={beside()?.id === summary().id}
-                  isDeleted={summary().policy !== null && !trained(summary())}
-                  onChoose={() => {
-                    const { id } = summary();
-                    if (compared() === id) compare(undefined);
-                    choose(id);
-                  }}
-                  onCompare={() => {
-                    const { id } = summary();
-                    choose(shownId());
-                    compare(beside()?.id === id ? undefined : id);
-                  }}
-                  onUse={() => {
-                    use(trained(summary()), [summary().query.map]);
-                  }}
-                  onEvaluate={() => {
-                    evaluate(summary());
-                  }}
-                />
-              )}
-            </ForKeyed>
-          </ul>
-          <Show when={lab.catalog.trainings()?.length === 0}>
-            <p class="placeholder">No trainings yet.</p>
+          {/* With the list, so that nothing moves when that arrives. */}
+          <Show when={lab.catalog.trainings()}>
+            <Show when={isForm()} fallback={details()}>
+              <section ref={form}>
+                <header>
+                  <h2>{all().length === 0 ? 'Train a policy of your own' : 'New training'}</h2>
+                  <Show when={all().length > 0}>
+                    <CloseButton label="Close the form" onClose={closeForm} />
+                  </Show>
+                </header>
+                <Show when={all().length === 0}>
+                  <Intro />
+                </Show>
+                <StartPanel lab={lab} onStarted={closeForm} />
+              </section>
+            </Show>
+            <PoliciesPanel lab={lab} onUse={use} />
           </Show>
-        </Panel>
-      </div>
-      {/* With the list, so that nothing moves when that arrives. */}
-      <Show when={lab.catalog.trainings()}>
-        <div class="train-right">
-          <Show when={watched().length > 0} fallback={<Intro />}>
-            <Panel class="train-watch" name="Value map" head={<LayerToggles />}>
-              <p class="hint">
-                What the policy expects from each place: the sum of all later rewards on the route
-                to the goal. Arrows show the best step.
-              </p>
-              <Marks />
-              <div class="train-panes" data-count={watched().length}>
-                <ForKeyed each={watched()} by={({ id }) => id}>
-                  {(summary) => (
-                    <WatchPane
-                      summary={summary()}
-                      points={pointsOf(summary())}
-                      sentence={stageSentence(summary(), before(summary()))}
-                      range={range()}
-                      isGrowing={watched().some(isActive)}
-                    />
-                  )}
-                </ForKeyed>
-              </div>
-              <Readings />
-            </Panel>
-            <Panel name="Curves">
+        </>
+      }
+      dockName="Playback"
+      dock={
+        <>
+          <Show when={hasCurves() && watched().length > 0}>
+            <div class="lanes train-lanes">
               <Show
                 when={watched()
                   .map(({ id }) => id)
@@ -182,12 +277,11 @@ export default function TrainView(props: {
                   }))}
                 />
               </Show>
-            </Panel>
-            <FoldedIntro />
+            </div>
           </Show>
-          <PoliciesPanel lab={lab} onUse={use} />
-        </div>
-      </Show>
-    </main>
+          <Dock watches={watches()} />
+        </>
+      }
+    />
   );
 }

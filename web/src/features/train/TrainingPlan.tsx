@@ -2,40 +2,37 @@
 
 import { createEffect, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
 import { nextToward, type Vec2 } from '../../lab/geometry';
-import {
-  GOAL_RADIUS_M,
-  type MapCheck,
-  type TrainingCells,
-  type TrainingFrame,
-} from '../../net/protocol.gen';
-import { Relief } from '../../plan/relief';
+import type { MapCheck, TrainingCells, TrainingFrame } from '../../net/protocol.gen';
 import { createValues } from '../../plan/drawValues';
 import { ARROWS } from '../../plan/gesture';
+import { Relief } from '../../plan/relief';
 import { contextOf } from '../../plan/sheet';
-import { framed } from '../../plan/tray';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
+import { framed } from '../../plan/tray';
 import { onSize, type Size } from '../../ui/size';
 import { prefersLessMotion } from '../../ui/motion';
 import { drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
-import { around, cellAt, grown, valueCells } from './grid';
+import { around, cellAt, valueCells } from './grid';
 import { palette } from '../../ui/palette';
 
-const MARGIN = { left: 2, right: 2, top: 2, bottom: 2 };
+/** Around the box of the map, for the mark of a goal near the border, as in watch.css. */
+const MARGIN_PX = 12;
+const MARGIN = { left: MARGIN_PX, right: MARGIN_PX, top: MARGIN_PX, bottom: MARGIN_PX };
 const STEPS_PER_S = 14;
 /** The ends of the episodes are shown for as many steps. */
 const REST_STEPS = 14;
 
 interface PlanProps {
   readonly label: string;
-  readonly helpId: string;
+  readonly helpId?: string;
   /** Undefined until the server has sent it. */
   readonly map: MapCheck | undefined;
-  readonly cells: TrainingCells | undefined;
-  readonly frame: TrainingFrame | undefined;
-  readonly range: readonly [number, number] | undefined;
+  readonly cells?: TrainingCells | undefined;
+  readonly frame?: TrainingFrame | undefined;
+  readonly range?: readonly [number, number] | undefined;
   readonly layers: Layers;
-  readonly chosen: number | undefined;
-  readonly onChoose: (place: Vec2) => void;
+  readonly chosen?: number | undefined;
+  readonly onChoose?: (place: Vec2) => void;
 }
 
 export function TrainingPlan(props: PlanProps): JSX.Element {
@@ -46,18 +43,9 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   const workspace = createMemo(
     () => props.map?.workspace ?? (props.cells ? around(props.cells) : undefined),
   );
-  const shown = createMemo(() => {
-    const [rect, { cells }] = [workspace(), props];
-    const tray = rect && framed(rect);
-    return tray && cells ? grown(tray, cells.goal_m, GOAL_RADIUS_M) : tray;
-  });
-  const shape = (): string | undefined => {
-    const rect = shown();
-    return rect && String((rect.x_max_m - rect.x_min_m) / (rect.y_max_m - rect.y_min_m));
-  };
   const view = createMemo<View | undefined>(() => {
-    const [rect, now] = [shown(), size()];
-    return rect && now && fitView(rect, now.width, now.height, MARGIN);
+    const [rect, now] = [workspace(), size()];
+    return rect && now && fitView(framed(rect), now.width, now.height, MARGIN);
   });
   const relief = createMemo(() => {
     const rect = workspace();
@@ -116,14 +104,13 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
     const at = cells.centers_m[from];
     const next = at && nextToward(cells.centers_m, at, direction);
     const center = cells.centers_m[next ?? from];
-    if (center) props.onChoose(center);
+    if (center) props.onChoose?.(center);
   };
   return (
     <div class="train-plan">
       <canvas
         ref={base}
         class="train-canvas"
-        style={{ 'aspect-ratio': shape() }}
         tabindex="0"
         role="application"
         aria-label={props.label}
@@ -132,7 +119,7 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
         data-update={props.frame?.update}
         onClick={(event) => {
           const now = view();
-          if (now) props.onChoose(worldFromPx(now, [event.offsetX, event.offsetY]));
+          if (now) props.onChoose?.(worldFromPx(now, [event.offsetX, event.offsetY]));
         }}
         onKeyDown={onKeyDown}
       />

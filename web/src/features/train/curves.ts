@@ -73,7 +73,7 @@ export const KINDS: readonly Kind[] = [
           ]
         : [null, null, null],
     intervals: 'both',
-    help: 'The same without random steps, with random starts and goals. Bar: the 95 % interval. The last examination has the most episodes.',
+    help: 'Without random steps, with random starts and goals. Bar: the 95 % interval.',
   },
 ];
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { around, cellAt, fanAt, grown, placeAfter, startsThat, valueCells } from './grid';
+import { around, cellAt, fanAt, placeAfter, startsThat, valueCells } from './grid';
 import { CELLS, frameOf } from './testing';
 
 describe('the cells', () => {
@@ -14,12 +14,6 @@ describe('the cells', () => {
     expect(x_max_m).toBeCloseTo(0.035);
     expect(y_min_m).toBeCloseTo(-0.005);
     expect(y_max_m).toBeCloseTo(0.015);
-  });
-
-  it('leave room for a goal at the border', () => {
-    const rect = { x_min_m: 0, x_max_m: 0.5, y_min_m: -0.3, y_max_m: 0 };
-    expect(grown(rect, [0.25, -0.01], 0.02)).toEqual({ ...rect, y_max_m: 0.01 });
-    expect(grown(rect, [0.25, -0.1], 0.02)).toEqual(rect);
   });
 
   it('have the values of a frame', () => {

@@ -45,16 +45,6 @@ export function around({ centers_m, spacing_m }: TrainingCells): Rect {
   };
 }
 
-/** The rectangle with a circle inside. */
-export function grown(rect: Rect, [x, y]: Vec2, radius_m: number): Rect {
-  return {
-    x_min_m: Math.min(rect.x_min_m, x - radius_m),
-    x_max_m: Math.max(rect.x_max_m, x + radius_m),
-    y_min_m: Math.min(rect.y_min_m, y - radius_m),
-    y_max_m: Math.max(rect.y_max_m, y + radius_m),
-  };
-}
-
 /** Indices of the starts from which an episode ends so. */
 export function startsThat(frame: TrainingFrame, ending: EpisodeEnding): number[] {
   return frame.endings.flatMap((one, index) => (one === ending ? [index] : []));

@@ -24,7 +24,13 @@ export const [layers, setLayers] = createSignal<Layers>({
 /** The place whose cell is shown, in both trainings. */
 export const [place_m, setPlace] = createSignal<Vec2>();
 
-/** Fills in the map of the session, and a name for its policy. */
+/** Whether the form for a new training is open although there are trainings. */
+export const [isNew, setNew] = createSignal(false);
+
+export const [hasCurves, setCurves] = createSignal(false);
+
+/** Opens the form with the map of the session, and a name for its policy. */
 export function showMap(): void {
   change({ map: undefined, name: undefined });
+  setNew(true);
 }

@@ -1,6 +1,7 @@
 // How long 5 cm are on the map.
 
 import type { JSX } from 'solid-js';
+import './ScaleBar.css';
 
 export function ScaleBar(): JSX.Element {
   return (
