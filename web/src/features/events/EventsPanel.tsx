@@ -46,12 +46,13 @@ function Line(props: {
   const look = (): EventLook => (props.line.event ? eventLook(props.line.event) : TROUBLE);
   const time = (): string =>
     props.line.sim_time_s === undefined ? '' : clock(props.line.sim_time_s);
+  const words = (): string =>
+    props.line.count > 1 ? `${props.line.text} (×${props.line.count})` : props.line.text;
   /** Only with a story it is a button. */
   const button = (): JSX.ButtonHTMLAttributes<HTMLButtonElement> =>
     props.event
       ? {
           type: 'button',
-          'aria-label': `Why: ${eventTitle(props.event)}: ${props.line.text}`,
           'aria-expanded': props.isOpen,
           tabindex: props.isReached ? 0 : -1,
           onClick: props.onPress,
@@ -60,14 +61,16 @@ function Line(props: {
   return (
     <li data-kind={props.line.kind}>
       <Dynamic component={props.event ? 'button' : 'div'} class="story-line" {...button()}>
-        <time class="number">{time()}</time>
+        <Show when={props.event}>
+          {(event) => <span class="visually-hidden">Why: {eventTitle(event())}</span>}
+        </Show>
+        <time class="number" aria-hidden={props.event !== undefined}>
+          {time()}
+        </time>
         <span class="pin" style={{ color: `var(--${look().colour})` }}>
           <Icon of={look().icon} />
         </span>
-        <span class="what">
-          {props.line.text}
-          <Show when={props.line.count > 1}> (×{props.line.count})</Show>
-        </span>
+        <span class="what">{words()}</span>
       </Dynamic>
       <Show when={props.isOpen && props.event}>
         {(event) => <WhyCard lab={props.lab} event={event()} />}

@@ -110,7 +110,7 @@ export function FailureCard(props: { lab: FailureLab }): JSX.Element {
       {(now) => (
         <section class="failure" role="status" aria-label="Not delivered">
           <header>
-            <h3>Not delivered</h3>
+            <h2>Not delivered</h2>
             <CloseButton label="Close" onClose={() => setClosed(now().key)} />
           </header>
           <p>{causeOf(now())}</p>
