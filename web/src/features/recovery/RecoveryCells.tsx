@@ -25,8 +25,8 @@ function Legend(props: { isDifference: boolean }): JSX.Element {
         ]
       : [
           ['delivered', 'delivered'],
-          ['late', 'mostly too late'],
-          ['lost', 'mostly not delivered'],
+          ['late', 'too late'],
+          ['lost', 'not delivered'],
         ];
   return (
     <ul class="recovery-legend" aria-label="Legend">
@@ -158,7 +158,7 @@ export function Cells(props: {
         <Show when={basin()?.area_m2}>
           {(area_m2) => <>{squareCentimetres(area_m2())} around the goal. </>}
         </Show>
-        Press a cell above to see its trials and why they failed.
+        A cell shows what happened most often. Press one to see its trials and why they failed.
       </p>
     </div>
   );
