@@ -1,6 +1,7 @@
 // A table whose columns are written once, for their heads and their cells.
 
 import { For, Show, type JSX } from 'solid-js';
+import './dataTable.css';
 
 export interface Column<R> {
   readonly name: string;
@@ -31,8 +32,14 @@ export function Heads(props: { columns: readonly Omit<Column<never>, 'cell'>[] }
 export function Cells<R>(props: { columns: readonly Column<R>[]; row: R }): JSX.Element {
   return (
     <For each={props.columns}>
-      {({ isHead, cell }) =>
-        isHead ? <th scope="row">{cell(props.row)}</th> : <td>{cell(props.row)}</td>
+      {({ name, hideName, unit, isHead, cell }) =>
+        isHead ? (
+          <th scope="row">{cell(props.row)}</th>
+        ) : (
+          <td data-label={hideName ? undefined : [name, unit].filter(Boolean).join(', ')}>
+            {cell(props.row)}
+          </td>
+        )
       }
     </For>
   );

@@ -32,17 +32,6 @@ export function signed(value: number, digits: number): string {
   return value > 0 ? `+${text}` : text;
 }
 
-/** A difference and its interval, multiplied by `scale`. */
-export function difference(
-  mean: number,
-  [low, high]: readonly [number, number],
-  scale: number,
-  digits: number,
-): string {
-  const text = (value: number): string => signed(value * scale, digits);
-  return `${text(mean)} (${text(low)} to ${text(high)})`;
-}
-
 /** The server's files of an evaluation. */
 export const REPORTS = ['html', 'csv', 'json'] as const;
 

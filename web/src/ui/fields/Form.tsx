@@ -60,6 +60,8 @@ export function Form(props: {
   disabled: boolean;
   /** Why it is disabled. */
   why?: string | undefined;
+  /** The button stays in sight, as the foot of the inspector. */
+  isFoot?: boolean;
   /** Beside the button. */
   beside?: JSX.Element;
   /** Enter in a field does not send it. */
@@ -138,7 +140,7 @@ export function Form(props: {
       }}
     >
       <Fields.Provider value={fields}>{props.children}</Fields.Provider>
-      <div class="form-end">
+      <div class="form-end" classList={{ 'inspector-foot': props.isFoot }}>
         <button
           type="submit"
           class={props.buttonClass ?? 'primary'}
@@ -156,10 +158,10 @@ export function Form(props: {
         <Show when={!props.isInline && summary()}>
           {(words) => <span class="refusal">{words()}</span>}
         </Show>
+        <p class="refusal" role="alert">
+          {general()}
+        </p>
       </div>
-      <p class="refusal" role="alert">
-        {general()}
-      </p>
     </form>
   );
 }
