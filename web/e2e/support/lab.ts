@@ -178,9 +178,18 @@ export class Lab extends Stepper {
     });
   }
 
+  /** In the panel *Set up*. */
+  mapChoice(name: string) {
+    const maps = this.page.getByRole('radiogroup', { name: 'Map' });
+    return maps.getByRole('radio', { name, exact: true });
+  }
+
   async map(name: string) {
     if (this.scene.map === name) return;
-    await this.label('Map').selectOption(name);
+    if (!(await this.mapChoice(name).isVisible())) {
+      await this.page.getByTitle('Set up: map, preset, seed').click();
+    }
+    await this.mapChoice(name).check();
     await this.shown(`map ${name}`, () => this.scene.map === name);
   }
 

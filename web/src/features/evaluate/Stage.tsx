@@ -1,15 +1,17 @@
 // How far an evaluation is: an icon and a word.
 
-import { Show, type JSX } from 'solid-js';
-import { Ban, Check, type IconNode, X } from 'lucide';
+import type { JSX } from 'solid-js';
+import { Ban, Check, Hourglass, type IconNode, Play, X } from 'lucide';
 import type { EvaluationSummary } from '../../net/protocol.gen';
-import { Icon } from '../../ui/Icon';
+import { Badge } from '../../ui/Badge';
 import { stageWords } from './progress';
 
-const ICONS: Partial<Record<EvaluationSummary['stage'], IconNode>> = {
-  done: Check,
-  failed: X,
-  cancelled: Ban,
+const LOOKS: Record<EvaluationSummary['stage'], readonly [IconNode, 'good' | 'bad' | 'plain']> = {
+  waiting: [Hourglass, 'plain'],
+  running: [Play, 'plain'],
+  done: [Check, 'good'],
+  cancelled: [Ban, 'plain'],
+  failed: [X, 'bad'],
 };
 
 export function Stage(props: {
@@ -19,13 +21,10 @@ export function Stage(props: {
   testid?: string;
 }): JSX.Element {
   return (
-    <span
-      class="badge evaluation-stage number"
-      data-stage={props.of.stage}
-      data-testid={props.testid}
-    >
-      <Show when={ICONS[props.of.stage]}>{(icon) => <Icon of={icon()} />}</Show>
-      {props.words ?? stageWords(props.of)}
+    <span class="number" data-testid={props.testid}>
+      <Badge of={LOOKS[props.of.stage][0]} tone={LOOKS[props.of.stage][1]}>
+        {props.words ?? stageWords(props.of)}
+      </Badge>
     </span>
   );
 }

@@ -2,7 +2,7 @@
 
 import { Show, type JSX } from 'solid-js';
 import { Download as DownloadIcon, MonitorPlay } from 'lucide';
-import { MapPicture } from '../maps/MapPicture';
+import { MapPicture } from '../../lab/MapPicture';
 import { addressOf } from '../../net/base';
 import type { RecordingFile } from '../../net/protocol.gen';
 import { ConfirmButton } from '../../ui/ConfirmButton';
@@ -10,6 +10,7 @@ import { duration } from '../../ui/format';
 import { Icon } from '../../ui/Icon';
 import { SmallButton } from '../../ui/SmallButton';
 import { createRenaming, TitleForm } from '../../ui/TitleForm';
+import '../../ui/Fact.css';
 import { nameOf, ownName } from './names';
 import { type Ending, filePath, label, size, startedAt } from './recordings';
 
@@ -87,7 +88,7 @@ export function RecordingPanel(props: {
   return (
     <aside class="inspector" aria-label="Chosen recording">
       <div class="inspector-panel recording-panel">
-        <MapPicture map={props.file.content?.maps[0]} />
+        <Show when={props.file.content?.maps[0]}>{(map) => <MapPicture map={map()} />}</Show>
         <Show when={renaming.isOn()} fallback={<h2>{nameOf(props.file)}</h2>}>
           <TitleForm
             {...renaming.form}

@@ -1,11 +1,11 @@
 // A recording in the list.
 
 import { Show, type JSX } from 'solid-js';
-import { Radio } from 'lucide';
-import { MapPicture } from '../maps/MapPicture';
+import { Radio, UserRound } from 'lucide';
+import { MapPicture } from '../../lab/MapPicture';
 import type { RecordingFile } from '../../net/protocol.gen';
+import { Badge } from '../../ui/Badge';
 import { duration } from '../../ui/format';
-import { Icon } from '../../ui/Icon';
 import { nameOf } from './names';
 import { size, startedAt } from './recordings';
 
@@ -36,14 +36,11 @@ export function Row(props: {
             <span class="recording-name">{nameOf(props.file)}</span>
             <Show when={props.isOwn}>
               {' '}
-              <span class="badge">this session</span>
+              <Badge of={UserRound}>this session</Badge>
             </Show>
             <Show when={props.file.live}>
               {' '}
-              <span class="badge">
-                <Icon of={Radio} />
-                recording now
-              </span>
+              <Badge of={Radio}>recording now</Badge>
             </Show>
             <small>{began()}</small>
           </span>
