@@ -93,7 +93,7 @@ function cellsOf(row: EvaluationReport['rows'][number]) {
     `${cm(row.tracking_error_mean_m)}${cm(row.tracking_error_max_x_m)} · ${cm(row.tracking_error_max_y_m)}`,
     must(row.path_ratio_mean, 'a path').toFixed(3),
     `${row.steps_mean.toFixed(1)}${row.switches_mean.toFixed(2)}`,
-    `${row.decision_ms_p50.toFixed(1)} · ${row.decision_ms_p99.toFixed(1)}`,
+    `${row.decision_ms_p50.toFixed(1)}${row.decision_ms_p99.toFixed(1)}`,
   ];
 }
 

@@ -61,7 +61,7 @@ it('shows rows as they come, those of the paper, curves and failures', async () 
     .poll(rows)
     .toEqual([
       expect.stringMatching(
-        /^ERRTposts \| .*0\.1 \| 0 \| 29\/30.* \| 28\/30.* \| 1\.45\.0 · 6\.5 \|/,
+        /^ERRTposts \| .*0\.1 \| 0 \| 29\/30.* \| 28\/30.* \| 1\.45\.0 · 6\.5 \| .* \| 2\.37\.5$/,
       ),
       expect.stringMatching(/^paper, §V-A: “29 of 30” \| 29\/30.* \| – \| 1\.0 \| – \| – \| –$/),
       expect.stringMatching(/^ERRTposts \| .*0\.2 \| 0 \| 4 of 10 episodes, 3 delivered so far$/),

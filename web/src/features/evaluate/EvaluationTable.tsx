@@ -8,7 +8,7 @@ import { fixed } from '../../ui/format';
 import { Cells, type Column, Heads } from '../../ui/Table';
 import { IntervalBar } from './IntervalBar';
 import { Named } from './Named';
-import { cm, decisionWords, percentRange, ratio } from './table';
+import { cm, percentRange, ratio } from './table';
 import { variedWords } from './varied';
 import './tables.css';
 
@@ -70,7 +70,7 @@ const MEASURED: readonly (Column<Row> & { readonly paper?: (row: Common) => JSX.
   },
   {
     name: 'Error',
-    unit: 'cm; max x · y',
+    unit: 'cm; x · y',
     title:
       'Distance between tool and bead during transport, and its largest differences in x and y: means over the episodes',
     cell: error,
@@ -95,10 +95,15 @@ const MEASURED: readonly (Column<Row> & { readonly paper?: (row: Common) => JSX.
   },
   {
     name: 'Decision',
-    unit: 'ms, p50 · p99',
+    unit: 'ms; p99',
     title:
       'Computing time of a control step with its camera image: median and 99th percentile, including all other work of this machine',
-    cell: decisionWords,
+    cell: (row) => (
+      <>
+        {fixed(row.decision_ms_p50, 1)}
+        <small>{fixed(row.decision_ms_p99, 1)}</small>
+      </>
+    ),
   },
 ];
 

@@ -1,17 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { sceneOf } from '../../lab/testing';
 import { setUpAgain } from './setUp';
-import {
-  cm,
-  decisionWords,
-  percentRange,
-  ratio,
-  reason,
-  reportAddress,
-  REPORTS,
-  signed,
-} from './table';
-import { cellOf, ROW } from './testing';
+import { cm, percentRange, ratio, reason, reportAddress, REPORTS, signed } from './table';
+import { cellOf } from './testing';
 import type { EvaluationFailure } from '../../net/protocol.gen';
 
 const FAILURE: EvaluationFailure = {
@@ -30,11 +21,10 @@ const FAILURE: EvaluationFailure = {
 };
 
 describe('text of a row', () => {
-  it('has percentages, centimetres, milliseconds and the reason of a failure', () => {
+  it('has percentages, centimetres and the reason of a failure', () => {
     expect(percentRange([0.8333, 1])).toBe('83–100 %');
     expect(cm(0.0141)).toBe('1.4');
     expect(cm(null)).toBe('–');
-    expect(decisionWords(ROW)).toBe('2.3 · 7.5');
     expect(reason({ ...FAILURE, refusal: 'a wall is ahead' })).toBe(
       'stopped: 150 steps without reaching the goal; following a wall; a wall is ahead',
     );

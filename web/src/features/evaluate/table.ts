@@ -1,7 +1,7 @@
 // Rows as text: in the table, and in the files to download. Pure.
 
 import { fixed } from '../../ui/format';
-import type { EvaluationFailure, Row } from '../../net/protocol.gen';
+import type { EvaluationFailure } from '../../net/protocol.gen';
 import { addressOf } from '../../net/base';
 
 export function percentRange([low, high]: readonly [number, number]): string {
@@ -11,10 +11,6 @@ export function percentRange([low, high]: readonly [number, number]): string {
 /** Centimetres without the unit, which is in the column's head. */
 export function cm(value_m: number | null): string {
   return value_m === null ? '–' : fixed(100 * value_m, 1);
-}
-
-export function decisionWords(row: Row): string {
-  return `${fixed(row.decision_ms_p50, 1)} · ${fixed(row.decision_ms_p99, 1)}`;
 }
 
 /** Why a trial failed, in the words of its report. */

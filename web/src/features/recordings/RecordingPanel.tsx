@@ -1,7 +1,7 @@
 // The chosen recording: what it holds, its files, its title and its deletion.
 
 import { Show, type JSX } from 'solid-js';
-import { Download as DownloadIcon, MonitorPlay } from 'lucide';
+import { Download as DownloadIcon, List, MonitorPlay } from 'lucide';
 import { MapPicture } from '../../lab/MapPicture';
 import { addressOf } from '../../net/base';
 import type { RecordingFile } from '../../net/protocol.gen';
@@ -79,6 +79,7 @@ export function RecordingPanel(props: {
   file: RecordingFile;
   isOpen: boolean;
   openerRef: (button: HTMLButtonElement) => void;
+  /** Opens it in the viewer, or goes back to the list. */
   onOpen: () => void;
   /** True if it was done. */
   onRename: (title: string) => Promise<boolean>;
@@ -117,17 +118,15 @@ export function RecordingPanel(props: {
         <footer class="inspector-foot">
           <button
             type="button"
-            class="primary"
             ref={props.openerRef}
-            disabled={props.isOpen}
-            title={props.isOpen ? 'It is open' : undefined}
-            aria-label={`Open in Rerun: ${label(props.file)}`}
+            classList={{ primary: !props.isOpen }}
+            aria-label={props.isOpen ? undefined : `Open in Rerun: ${label(props.file)}`}
             onClick={() => {
               props.onOpen();
             }}
           >
-            <Icon of={MonitorPlay} />
-            Open in Rerun
+            <Icon of={props.isOpen ? List : MonitorPlay} />
+            {props.isOpen ? 'Back to the list' : 'Open in Rerun'}
           </button>
         </footer>
       </div>

@@ -131,7 +131,10 @@ export default function RecordingsView(props: {
                 openerRef={(button) => {
                   opener = button;
                 }}
-                onOpen={() => setOpen(file())}
+                onOpen={() => {
+                  if (open()) close();
+                  else setOpen(file());
+                }}
                 onRename={(title) => attempt(rename(id, title))}
                 onDelete={() => discardAt(id)}
               />
