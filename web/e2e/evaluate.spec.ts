@@ -34,7 +34,7 @@ async function tabTo(page: Page, control: Locator) {
 
 /** Fills in the form by keyboard only. */
 async function fillIn(page: Page, values: FormValues) {
-  const form = page.getByRole('region', { name: 'New evaluation' });
+  const form = page.getByRole('complementary', { name: 'New evaluation' });
   // The view is loaded when it opens.
   await expect(form.getByRole('checkbox', { name: 'posts', exact: true })).toBeVisible();
   await page.getByRole('link', { name: 'Evaluate', exact: true }).focus();
@@ -86,18 +86,14 @@ function cellsOf(row: EvaluationReport['rows'][number]) {
     `${(100 * low).toFixed(0)}–${(100 * high).toFixed(0)} %`;
   const cm = (value_m: number) => (100 * value_m).toFixed(1);
   return [
-    NAMES[row.controller],
-    row.map,
+    `${NAMES[row.controller]}${row.map}`,
     String(row.disturbances),
     `${row.successes}/${row.episodes}${percent(row.successes_wilson95)}`,
     `${row.delivered}/${row.episodes}${percent(row.wilson95)}`,
-    cm(row.tracking_error_mean_m),
-    cm(row.tracking_error_max_x_m),
-    cm(row.tracking_error_max_y_m),
+    `${cm(row.tracking_error_mean_m)}${cm(row.tracking_error_max_x_m)} · ${cm(row.tracking_error_max_y_m)}`,
     must(row.path_ratio_mean, 'a path').toFixed(3),
-    row.steps_mean.toFixed(1),
-    row.switches_mean.toFixed(2),
-    `${row.decision_ms_p50.toFixed(1)} · ${row.decision_ms_p99.toFixed(1)}`,
+    `${row.steps_mean.toFixed(1)}${row.switches_mean.toFixed(2)}`,
+    `${row.decision_ms_p50.toFixed(1)}${row.decision_ms_p99.toFixed(1)}`,
   ];
 }
 

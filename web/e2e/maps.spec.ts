@@ -10,7 +10,7 @@ test('RL delivers on an uploaded map, and the panel says what it was trained on'
   server,
 }) => {
   const { page } = lab;
-  await openMap(page, () => lab.button('Open map…').click(), DRAWING, 'Own maze.svg');
+  await openMap(page, () => lab.button('Open SVG…').click(), DRAWING, 'Own maze.svg');
   await expect.poll(() => lab.scene.map).toBe('own-maze');
   await lab.reset({ map: 'own-maze' });
   await lab.controller('RL');
@@ -37,7 +37,7 @@ test('opens an uploaded map, and delivers the bead on it', async ({ lab, server 
   // The map keeps the name of its file.
   const name = 'two-rooms';
   const upload = () =>
-    openMap(page, () => lab.button('Open map…').click(), DRAWING, 'Two rooms.svg');
+    openMap(page, () => lab.button('Open SVG…').click(), DRAWING, 'Two rooms.svg');
   await upload();
   await expect.poll(() => lab.scene.map).toBe(name);
   const report = page.locator('.map-report');
@@ -47,7 +47,7 @@ test('opens an uploaded map, and delivers the bead on it', async ({ lab, server 
   await expect(report).toHaveCount(0);
   expect(lab.scene.walls.length).toBe(2);
   expect(lab.lists.maps).toContain(name);
-  await expect(lab.label('Map')).toHaveValue(name);
+  await expect(lab.mapChoice(name)).toBeChecked();
   const stored = await page.request.get(`${server.url}/api/maps/${name}`);
   expect(await stored.text()).toBe(DRAWING);
   await lab.reset({ map: name });
@@ -69,7 +69,7 @@ test('moves a drawing at the arm’s base into its reach', async ({ lab, server 
   const { page } = lab;
   const drawing =
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 -100 300 200"><rect width="50" height="10"/></svg>';
-  await openMap(page, () => lab.button('Open map…').click(), drawing, 'base.svg');
+  await openMap(page, () => lab.button('Open SVG…').click(), drawing, 'base.svg');
   const report = page.locator('.map-report');
   await expect(report).toContainText(/The arm reaches \d+ % of the free area/);
   await report.getByRole('button', { name: 'Move into reach' }).click();

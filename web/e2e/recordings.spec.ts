@@ -7,10 +7,7 @@ import { SECOND_TICKS } from './support/stepper';
 /** The list is polled every three seconds. */
 const LISTED_MS = 20_000;
 
-const rowOf = (lab: Lab, { name }: Session) =>
-  lab.page
-    .getByRole('row')
-    .filter({ has: lab.page.getByRole('button', { name: `Open ${name},` }) });
+const rowOf = (lab: Lab, { name }: Session) => lab.page.getByRole('row').filter({ hasText: name });
 
 test('lists recordings, and downloads their files', async ({ lab, session }) => {
   await lab.reset();
@@ -18,21 +15,23 @@ test('lists recordings, and downloads their files', async ({ lab, session }) => 
   await lab.step(4 * SECOND_TICKS);
 
   await lab.view('Recordings').click();
-  const row = lab.page.getByRole('row').filter({ hasText: session.name }).first();
+  const row = rowOf(lab, session).first();
   await expect(row).toContainText('recording now');
   await expect(row).toContainText('this session');
   await expect(row).toContainText(/\d+[.,]?\d* [kM]B/);
   await expect(row).toContainText(String(new Date().getFullYear()));
 
+  // That of the session is chosen.
+  const chosen = lab.page.getByRole('complementary', { name: 'Chosen recording' });
   const downloading = lab.page.waitForEvent('download');
-  await row.getByRole('link', { name: `Download ${session.name}` }).click();
+  await chosen.getByRole('link', { name: `Download ${session.name}` }).click();
   const download = await downloading;
   expect(download.suggestedFilename()).toMatch(new RegExp(`-${session.name}\\.rrd$`));
   const bytes = await readFile(await download.path());
   expect(bytes.subarray(0, 4).toString()).toBe('RRF2');
 
   const log = lab.page.waitForEvent('download');
-  await row.getByRole('link', { name: `Download the input log of ${session.name}` }).click();
+  await chosen.getByRole('link', { name: `Download the input log of ${session.name}` }).click();
   const logged = await readFile(await (await log).path());
   expect(logged.subarray(0, 8).toString()).toBe('ferrylog');
 });

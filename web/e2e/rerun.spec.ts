@@ -34,7 +34,7 @@ test('opens a recording in Rerun’s viewer', async ({ lab, session, server, wat
   }
   // By keyboard only.
   await lab.view('Recordings').press('Enter');
-  const opener = page.getByRole('button', { name: `Open ${session.name}` });
+  const opener = page.getByRole('button', { name: `Open in Rerun: ${session.name}` });
   await opener.press('Enter');
   const body = page.frameLocator('iframe[title="Rerun viewer"]').locator('body');
   await expect(body).toHaveAttribute('data-state', /open|failed/, { timeout: VIEWER_MS });

@@ -5,7 +5,7 @@ import { LONG, type Lab, expect, test } from './fixtures';
 const RUN_MS = 90_000;
 
 async function run({ page }: Lab, controllers: readonly string[], first: string, second: string) {
-  const form = page.getByRole('region', { name: 'New evaluation' });
+  const form = page.getByRole('complementary', { name: 'New evaluation' });
   // The view is loaded when it opens.
   await expect(form.getByRole('checkbox', { name: 'open', exact: true })).toBeVisible();
   for (const box of await form.getByRole('checkbox').all()) await box.setChecked(false);

@@ -177,9 +177,17 @@ export const PLAYBACK: Section = {
 
 export const EXPERIMENTS: Section = {
   name: 'maps and presets',
+  rowReady: async (lab) => {
+    const title = lab.page.getByTitle('Set up: map, preset, seed');
+    if ((await title.getAttribute('aria-expanded')) === 'false') await title.click();
+  },
   rows: {
-    'combobox Map': { see: (lab) => lab.scene.map, after: backToPosts },
-    'button Open map…': {
+    'radio /^(attractor-example(-arm)?|colon(-folds)?|open|posts|u-turn|vessels)$/': {
+      see: (lab) => lab.scene.map,
+      act: (input) => input.press(input.page.getByRole('radio', { name: 'open', exact: true })),
+      after: backToPosts,
+    },
+    'button Open SVG…': {
       see: (lab) => lab.scene.map,
       act: (input, locator) => openMap(input.page, () => input.press(locator)),
       // Removes the map: other tests on this server expect the shipped maps only.

@@ -192,6 +192,10 @@ export const RECORDINGS: Section = {
               .filter(({ name }) => name.endsWith('/api/recordings')).length,
         ),
     },
+    // The rows.
+    'button /^(?!Open|Rename|Delete).*\\d:\\d\\d/': {
+      elsewhere: 'deletes a recording after a question',
+    },
     // Rerun's viewer needs the WebGL arguments of rerun.spec.ts.
     'button /^Open /': { elsewhere: 'opens a recording in Rerun’s viewer' },
     'link /^Download /': { see: downloads },

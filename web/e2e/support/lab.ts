@@ -202,10 +202,16 @@ export class Lab extends Stepper {
     });
   }
 
+  /** In the panel *Set up*. */
+  mapChoice(name: string) {
+    const maps = this.page.getByRole('radiogroup', { name: 'Map' });
+    return maps.getByRole('radio', { name, exact: true });
+  }
+
   async map(name: string) {
     if (this.scene.map === name) return;
     await this.setUp();
-    await this.page.getByRole('radiogroup', { name: 'Map' }).getByLabel(name, { exact: true }).check();
+    await this.mapChoice(name).check();
     await this.setUp();
     await this.shown(`map ${name}`, () => this.scene.map === name);
   }

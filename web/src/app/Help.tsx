@@ -1,12 +1,13 @@
 // A dialog that says what the page shows, with all keys and a switch for single-character shortcuts.
 
-import { CircleQuestionMark } from 'lucide';
+import { CircleQuestionMark, X } from 'lucide';
 import { For, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from './pageShortcuts';
 import { attachShortcuts, keyName } from '../ui/shortcuts';
 import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS } from '../lab/parameters';
 import { createChoice } from '../ui/storage';
 import type { Lab } from '../lab/slices';
+import { Glyph } from '../ui/Glyph';
 import { Icon } from '../ui/Icon';
 import './Help.css';
 
@@ -27,6 +28,7 @@ function WhatYouSee(): JSX.Element {
         <For each={CONTROLLERS}>
           {(name) => (
             <li>
+              <Glyph of={name} />
               {CONTROLLER_LABELS[name]}: {CONTROLLER_HELP[name]}
             </li>
           )}
@@ -64,8 +66,8 @@ export function Help(props: { lab: Lab }): JSX.Element {
         <form method="dialog">
           <header>
             <h2 id="help-title">Help</h2>
-            <button type="submit" class="small">
-              Close
+            <button type="submit" class="ghost icon-only" aria-label="Close" title="Close (Esc)">
+              <Icon of={X} />
             </button>
           </header>
           <WhatYouSee />

@@ -1,7 +1,7 @@
 // The menu of the top bar: who steers, what is recorded, and what is seldom needed.
 
 import { Show, createEffect, onCleanup, type JSX } from 'solid-js';
-import { Ellipsis } from 'lucide';
+import { Ellipsis, LogOut, Presentation } from 'lucide';
 import { takeControl } from '../lab/takeControl';
 import type { Session, Trial } from '../lab/slices';
 import { addressOf, pathOf } from '../net/base';
@@ -11,6 +11,7 @@ import { Icon } from '../ui/Icon';
 import { createPopover } from '../ui/popover';
 import { recordingWords } from '../words/facts';
 import type { Notices } from '../lab/slices';
+import '../ui/Fact.css';
 import './MoreMenu.css';
 
 /** Whether everything is recorded. The menu has the whole status. */
@@ -60,28 +61,36 @@ export function MoreMenu(props: { lab: Session & Trial & Notices }): JSX.Element
         <Icon of={Ellipsis} />
       </button>
       <Show when={popover.open()}>
-        <div id="more" class="popover more-box" role="group" aria-label="More">
+        <div id="more" class="popover of-top more-box" role="group" aria-label="More">
           <dl class="facts">
-            <dt>Session</dt>
-            <dd data-testid="session-name">{lab.session}</dd>
-            <dt>You are</dt>
-            <dd data-testid="role">{isOperator() ? 'operator' : 'viewer'}</dd>
+            <div>
+              <dt>You are</dt>
+              <dd data-testid="role">{isOperator() ? 'operator' : 'viewer'}</dd>
+            </div>
+            <div>
+              <dt>Session</dt>
+              <dd data-testid="session-name">{lab.session}</dd>
+            </div>
+            <div>
+              <dt>Time of the session</dt>
+              <dd class="number" data-testid="tick">
+                tick {lab.state()?.tick ?? 0}
+              </dd>
+            </div>
+            <div>
+              <dt>Camera’s picture by</dt>
+              <dd>{lab.hello()?.adapter ?? 'unknown'}</dd>
+            </div>
             <Show when={recording()}>
               {(fact) => (
-                <>
+                <div>
                   <dt>Recording</dt>
                   <dd data-testid="recording" data-recording={recordingState(fact())}>
                     {recordingWords(fact())}
                   </dd>
-                </>
+                </div>
               )}
             </Show>
-            <dt>Camera’s picture by</dt>
-            <dd>{lab.hello()?.adapter ?? 'unknown'}</dd>
-            <dt>Time of the session</dt>
-            <dd class="number" data-testid="tick">
-              tick {lab.state()?.tick ?? 0}
-            </dd>
           </dl>
           <Show when={isLive() && isOperator()}>
             <button
@@ -91,6 +100,7 @@ export function MoreMenu(props: { lab: Session & Trial & Notices }): JSX.Element
                 popover.close();
               }}
             >
+              <Icon of={LogOut} />
               Release control
             </button>
           </Show>
@@ -100,6 +110,7 @@ export function MoreMenu(props: { lab: Session & Trial & Notices }): JSX.Element
             href={`${addressOf('/demo')}#${pathOf(window.location.pathname)}`}
             title="A demonstration that runs by itself. F11 gives it the whole screen, Esc returns."
           >
+            <Icon of={Presentation} />
             Present
           </a>
         </div>

@@ -9,6 +9,7 @@ const LATE_MS = 2000;
 
 const button = (name: string) => page.getByRole('button', { name, exact: true });
 const select = (name: string) => page.getByLabelText(name, { exact: true });
+const map = (name: string) => page.getByRole('radio', { name, exact: true });
 const errt = page.getByRole('radio', { name: 'ERRT' });
 const rl = page.getByRole('radio', { name: 'RL' });
 const busy = (): string[] =>
@@ -27,13 +28,14 @@ async function used(): Promise<{ server: FakeServer; controls: number }> {
   server.lists({ maps: ['posts', 'colon'] });
   server.state({ controller: 'rl', goal_m: [0.1, -0.3, 0] });
   await expect.element(rl).toBeChecked();
+  await page.getByTitle('Set up: map, preset, seed').click();
   await button('Run').click();
   await button('Step').click();
   await button('Reset').click();
   await button('New seed').click();
   await button('Clear goal').click();
   await select('Speed').selectOptions('2×');
-  await select('Map').selectOptions('colon');
+  await map('colon').click();
   await errt.click();
   return { server, controls: 8 };
 }
@@ -44,7 +46,7 @@ it('each control shows the choice and waits while the server answers late', asyn
   expect(busy(), busy().join(', ')).toHaveLength(controls);
   await expect.element(errt).toBeChecked();
   await expect.element(select('Speed')).toHaveDisplayValue('2×');
-  await expect.element(select('Map')).toHaveDisplayValue('colon');
+  await expect.element(map('colon')).toBeChecked();
   server.state({ speed_target: 2, running: true });
   server.load();
   server.state({ controller: 'errt' });
@@ -52,7 +54,7 @@ it('each control shows the choice and waits while the server answers late', asyn
   await expect.poll(busy).toEqual([]);
   await expect.element(errt).toBeChecked();
   await expect.element(select('Speed')).toHaveDisplayValue('2×');
-  await expect.element(select('Map')).toHaveDisplayValue('colon');
+  await expect.element(map('colon')).toBeChecked();
   await expect.element(button('Pause')).toBeVisible();
   expect(notices()).toEqual([]);
 });
@@ -65,7 +67,7 @@ it('each control shows the old value again when the server refuses, and the pane
   await expect.element(rl).toBeChecked();
   await expect.element(errt).not.toBeChecked();
   await expect.element(select('Speed')).toHaveDisplayValue('1×');
-  await expect.element(select('Map')).toHaveDisplayValue('posts');
+  await expect.element(map('posts')).toBeChecked();
   await expect.element(button('Run')).toBeVisible();
   expect(notices().sort()).toEqual(['controller', 'transport', 'workspace']);
   // It stays until it is read.

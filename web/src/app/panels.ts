@@ -3,7 +3,6 @@
 import type { Component } from 'solid-js';
 import { EventsPanel } from '../features/events/EventsPanel';
 import type { MapOpener } from '../features/maps/opener';
-import { SetUpPanel } from '../features/setup/SetUpPanel';
 import type { PageExperiment } from '../lab/pageExperiment';
 import type { PanelName } from '../lab/panels';
 import { lazyPanel } from '../lab/panel';
@@ -11,6 +10,7 @@ import type { Lab } from '../lab/slices';
 import type { Picker } from '../plan/interaction';
 import { LayersPanel } from './LayersPanel';
 import { NowPanel } from './NowPanel';
+import { SetUpPanel } from './SetUpPanel';
 
 /** What panels get beside the laboratory. */
 export interface PageParts {

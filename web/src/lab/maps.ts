@@ -1,5 +1,6 @@
 // The user's own map: its drawing is sent to the server, which reads and names it.
 
+import { addressOf } from '../net/base';
 import { getText, post } from '../net/requests';
 import { MAX_SVG_BYTES, type MapCheck, type MapFacts, type MapReport } from '../net/protocol.gen';
 import { counted, fixed, millimetres } from '../ui/format';
@@ -72,9 +73,13 @@ export function checkOf(svg: string): Promise<MapCheck> {
   return post<MapCheck>('/api/map-checks', svg, 'image/svg+xml');
 }
 
+const svgPath = (map: string): string => `/api/maps/${encodeURIComponent(map)}`;
+
+/** The address of the drawing of a map of the server. */
+export const svgAddress = (map: string): string => addressOf(svgPath(map));
+
 /** The drawing of a map of the server; throws an error with the message to show. */
-export const svgOf = (map: string): Promise<string> =>
-  getText(`/api/maps/${encodeURIComponent(map)}`);
+export const svgOf = (map: string): Promise<string> => getText(svgPath(map));
 
 /** The walls and the size of a map of the server; throws an error with the message to show. */
 export const checkOfMap = async (map: string): Promise<MapCheck> => checkOf(await svgOf(map));

@@ -1,4 +1,6 @@
 import type { JSX } from 'solid-js';
+import { X } from 'lucide';
+import { Icon } from './Icon';
 
 export function CloseButton(props: { label: string; onClose: () => void }): JSX.Element {
   return (
@@ -10,7 +12,7 @@ export function CloseButton(props: { label: string; onClose: () => void }): JSX.
         props.onClose();
       }}
     >
-      ×
+      <Icon of={X} />
     </button>
   );
 }

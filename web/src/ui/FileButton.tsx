@@ -11,8 +11,6 @@ export function FileButton(props: {
   onFile: (file: File) => void;
   class?: string;
   title?: string | undefined;
-  /** If it differs from the visible text. */
-  name?: string;
   children: JSX.Element;
 }): JSX.Element {
   let input!: HTMLInputElement;
@@ -22,7 +20,6 @@ export function FileButton(props: {
         type="button"
         class={props.class}
         disabled={props.disabled}
-        aria-label={props.name}
         title={props.title}
         onClick={() => {
           input.click();

@@ -2,6 +2,7 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import './Table.css';
+import './dataTable.css';
 
 export interface Column<R> {
   readonly name: string;
@@ -32,8 +33,14 @@ export function Heads(props: { columns: readonly Omit<Column<never>, 'cell'>[] }
 export function Cells<R>(props: { columns: readonly Column<R>[]; row: R }): JSX.Element {
   return (
     <For each={props.columns}>
-      {({ isHead, cell }) =>
-        isHead ? <th scope="row">{cell(props.row)}</th> : <td>{cell(props.row)}</td>
+      {({ name, hideName, unit, isHead, cell }) =>
+        isHead ? (
+          <th scope="row">{cell(props.row)}</th>
+        ) : (
+          <td data-label={hideName ? undefined : [name, unit].filter(Boolean).join(', ')}>
+            {cell(props.row)}
+          </td>
+        )
       }
     </For>
   );

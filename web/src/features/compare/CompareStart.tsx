@@ -42,7 +42,7 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
       buttonTitle={title()}
       disabled={!lab.canOperate() || from() === undefined}
       why={from() === undefined ? START_NOT_KEPT : undefined}
-      endClass={hasResults() ? 'inspector-foot' : undefined}
+      isFoot={hasResults()}
       beside={
         <Show when={hasResults()}>
           <button

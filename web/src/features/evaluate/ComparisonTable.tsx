@@ -4,23 +4,44 @@ import type { JSX } from 'solid-js';
 import { labelOf } from '../../lab/parameters';
 import type { Comparison, PairedMean } from '../../net/protocol.gen';
 import { type Column, Table } from '../../ui/Table';
-import { difference } from './table';
+import { Named } from './Named';
+import { signed } from './table';
 import { variedWords } from './varied';
 import './tables.css';
 
-function paired(mean: PairedMean | null, scale: number, digits: number): string {
-  return mean === null ? '–' : difference(mean.mean, mean.interval95, scale, digits);
+/** With its interval, both multiplied by `scale`. */
+function difference(
+  value: number,
+  [low, high]: readonly [number, number],
+  scale: number,
+  digits: number,
+): JSX.Element {
+  const text = (one: number): string => signed(one * scale, digits);
+  return (
+    <>
+      {text(value)}
+      <small>
+        {text(low)} to {text(high)}
+      </small>
+    </>
+  );
 }
+
+const paired = (mean: PairedMean | null, scale: number, digits: number): JSX.Element =>
+  mean === null ? '–' : difference(mean.mean, mean.interval95, scale, digits);
 
 const COLUMNS: readonly Column<Comparison>[] = [
   {
     name: 'First − second',
     isHead: true,
-    cell: (one) => `${labelOf(one.controller)} − ${labelOf(one.against)}`,
-  },
-  {
-    name: 'Map',
-    cell: (one) => [one.map, variedWords(one.varied)].filter(Boolean).join('; '),
+    cell: (one) => (
+      <>
+        <Named of={one.controller}>{labelOf(one.controller)}</Named>
+        {' − '}
+        <Named of={one.against}>{labelOf(one.against)}</Named>
+        <small>{[one.map, variedWords(one.varied)].filter(Boolean).join('; ')}</small>
+      </>
+    ),
   },
   {
     name: 'Dist.',
@@ -29,7 +50,7 @@ const COLUMNS: readonly Column<Comparison>[] = [
   },
   {
     name: 'Delivered',
-    unit: 'both · first · second · neither',
+    unit: 'both, 1st, 2nd, neither',
     title: 'Episodes in which both, only the first, only the second, or neither delivered the bead',
     cell: (one) => [one.both, one.first_only, one.second_only, one.neither].join(' · '),
   },
@@ -63,12 +84,7 @@ const COLUMNS: readonly Column<Comparison>[] = [
 export function ComparisonTable(props: { comparisons: readonly Comparison[] }): JSX.Element {
   return (
     <div class="table-frame" tabindex="0" role="region" aria-label="Paired differences">
-      <Table
-        class="results number differences"
-        columns={COLUMNS}
-        rows={props.comparisons}
-        testid="comparison"
-      />
+      <Table class="data-table" columns={COLUMNS} rows={props.comparisons} testid="comparison" />
     </div>
   );
 }

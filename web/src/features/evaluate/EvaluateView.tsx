@@ -1,11 +1,13 @@
-// The Evaluate view: the request on the left, the results on the right.
+// The view Evaluate: the results on the stage, a new evaluation and the earlier ones in the inspector.
 
 import { Show, createMemo, createSignal, type JSX } from 'solid-js';
 import { ForKeyed } from '../../ui/ForKeyed';
-import { Panel } from '../../ui/Panel';
+import { Icon } from '../../ui/Icon';
+import { ChartColumn } from 'lucide';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
-import { episodesDone, episodesInAll, numberOf, stageWords, subject } from './progress';
+import { episodesDone, episodesInAll, numberOf, subject } from './progress';
+import { Stage } from './Stage';
 import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import type { Addressed, Session, Trial } from '../../lab/slices';
@@ -24,14 +26,15 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
         setChosen(props.summary.id);
       }}
     >
-      <span class="entry-head">
-        <strong>{numberOf(props.summary.id)}</strong>
-        <span class="evaluation-stage number" data-stage={props.summary.stage}>
-          {isActive(props.summary)
+      <b>{numberOf(props.summary.id)}</b>
+      <Stage
+        of={props.summary}
+        words={
+          isActive(props.summary)
             ? `${episodesDone(props.summary)} of ${episodesInAll(props.summary)}`
-            : stageWords(props.summary)}
-        </span>
-      </span>
+            : undefined
+        }
+      />
       <span class="entry-about">{subject(props.summary)}</span>
     </button>
   );
@@ -42,38 +45,41 @@ export default function EvaluateView(props: { lab: Addressed & Session & Trial }
   /** The chosen evaluation, otherwise the newest. */
   const shown = createMemo(() => all().find(({ id }) => id === chosen()) ?? all().at(-1));
   return (
-    <main class="view evaluate">
-      <div class="evaluate-left">
-        <Panel name="New evaluation">
-          <EvaluationForm lab={props.lab} measured={all()} onStarted={setChosen} />
-        </Panel>
-        <Panel name="Evaluations">
-          <div class="evaluation-entries">
-            <ForKeyed each={all().toReversed()} by={({ id }) => id}>
-              {(summary) => <Entry summary={summary()} current={shown()?.id === summary().id} />}
-            </ForKeyed>
-            <Show when={props.lab.catalog.evaluations()?.length === 0}>
-              <p class="placeholder">
-                No evaluations yet. The server keeps the last 16 until it is stopped.
-              </p>
-            </Show>
-          </div>
-        </Panel>
-      </div>
-      <Show
-        when={shown()}
-        fallback={
-          <section class="panel evaluation">
-            <p class="placeholder">
-              An evaluation counts how many of many random trials succeed, as in the paper. Choose
-              controllers and maps, then press Run. It runs in the background and does not slow down
-              the live session.
+    <>
+      <main class="view evaluate">
+        <Show
+          when={shown()}
+          fallback={
+            <p class="empty">
+              <Icon of={ChartColumn} />
+              <b>How many of many trials succeed?</b>
+              An evaluation counts it for random trials, as in the paper. Choose controllers and
+              maps, then press Run. It runs in the background and does not slow down the live
+              session.
             </p>
-          </section>
-        }
-      >
-        {(summary) => <EvaluationPanel lab={props.lab} summary={summary()} />}
-      </Show>
-    </main>
+          }
+        >
+          {(summary) => <EvaluationPanel lab={props.lab} summary={summary()} />}
+        </Show>
+      </main>
+      <aside class="inspector" aria-label="New evaluation">
+        <div class="inspector-panel">
+          <h2>New evaluation</h2>
+          <EvaluationForm lab={props.lab} measured={all()} onStarted={setChosen}>
+            <section class="evaluation-entries" aria-label="Evaluations">
+              <h3>Earlier</h3>
+              <ForKeyed each={all().toReversed()} by={({ id }) => id}>
+                {(summary) => <Entry summary={summary()} current={shown()?.id === summary().id} />}
+              </ForKeyed>
+              <Show when={props.lab.catalog.evaluations()?.length === 0}>
+                <p class="placeholder">
+                  No evaluations yet. The server keeps the last 16 until it is stopped.
+                </p>
+              </Show>
+            </section>
+          </EvaluationForm>
+        </div>
+      </aside>
+    </>
   );
 }

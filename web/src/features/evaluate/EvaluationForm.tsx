@@ -18,6 +18,7 @@ import { roughly } from '../../ui/format';
 import { change, draft, edits } from './draft';
 import { startEvaluation } from './evaluations';
 import { chooseControllers, estimate_s, queryOf, sizeWords } from './request';
+import { Mark } from './Named';
 import { VaryFields } from './VaryFields';
 import './EvaluationForm.css';
 
@@ -27,6 +28,8 @@ export function EvaluationForm(props: {
   lab: Session & Trial;
   measured: readonly EvaluationSummary[];
   onStarted: (id: string) => void;
+  /** Below the fields. */
+  children?: JSX.Element;
 }): JSX.Element {
   const { lab } = props;
   const programs = createPrograms(lab.catalog, () => draft().program || undefined);
@@ -49,6 +52,12 @@ export function EvaluationForm(props: {
         props.onStarted(await startEvaluation(queryOf(draft())));
       }}
       button="Run"
+      isFoot
+      beside={
+        <span class="hint" data-testid="evaluation-scope">
+          {scope()}
+        </span>
+      }
       disabled={!lab.canOperate()}
       why="Only the operator can start and cancel evaluations."
     >
@@ -60,6 +69,7 @@ export function EvaluationForm(props: {
         all={[...CONTROLLERS, ...programs()]}
         value={[...draft().controllers, draft().program].filter((name) => name !== '')}
         text={labelOf}
+        mark={(name) => <Mark of={name} />}
         onChoose={(chosen) => {
           change(chooseControllers(chosen, draft().program));
         }}
@@ -90,9 +100,7 @@ export function EvaluationForm(props: {
           isWhole
         />
       </div>
-      <p class="hint" data-testid="evaluation-scope">
-        {scope()}
-      </p>
+      {props.children}
     </Form>
   );
 }

@@ -1,9 +1,11 @@
 // One evaluation: progress, rows, failures.
 
 import { For, Show, createMemo, on, type JSX } from 'solid-js';
+import { Download } from 'lucide';
 import { operatorOnly } from '../../lab/operatorOnly';
 import { createAttempt } from '../../ui/attempt';
 import { roughly } from '../../ui/format';
+import { Icon } from '../../ui/Icon';
 import { SmallButton } from '../../ui/SmallButton';
 import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
@@ -11,16 +13,9 @@ import { ComparisonTable } from './ComparisonTable';
 import { cancelEvaluation, createReport } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
-import {
-  episodesDone,
-  episodesInAll,
-  milestone,
-  numberOf,
-  remaining_s,
-  stageWords,
-  subject,
-} from './progress';
+import { episodesDone, episodesInAll, milestone, numberOf, remaining_s, subject } from './progress';
 import { RobustnessPlots } from './RobustnessPlots';
+import { Stage } from './Stage';
 import { reportAddress, REPORTS } from './table';
 import type { Addressed, Session, Trial } from '../../lab/slices';
 import './EvaluationPanel.css';
@@ -65,19 +60,11 @@ export function EvaluationPanel(props: {
   /** One for each evaluation, so that a refusal is shown at its own. */
   const cancelling = createMemo(on(() => props.summary.id, createAttempt));
   return (
-    <section class="panel evaluation" aria-label={`Evaluation ${numberOf(props.summary.id)}`}>
-      <header class="panel-head">
-        <h2>
-          Evaluation {numberOf(props.summary.id)}
-          <span class="about">{subject(props.summary)}</span>
-        </h2>
-        <span
-          class="evaluation-stage"
-          data-stage={props.summary.stage}
-          data-testid="evaluation-stage"
-        >
-          {stageWords(props.summary)}
-        </span>
+    <section class="evaluation" aria-label={`Evaluation ${numberOf(props.summary.id)}`}>
+      <header>
+        <h2>Evaluation {numberOf(props.summary.id)}</h2>
+        <Stage of={props.summary} testid="evaluation-stage" />
+        <span class="hint">{subject(props.summary)}</span>
         <Show when={isActive(props.summary)}>
           <SmallButton
             {...operatorOnly(lab)}
@@ -102,6 +89,25 @@ export function EvaluationPanel(props: {
         )}
       </Show>
       <EvaluationTable summary={props.summary} rows={report()?.rows ?? []} />
+      <Show when={(report()?.rows.length ?? 0) > 0 && report()}>
+        {(now) => (
+          <div class="downloads">
+            <For each={REPORTS}>
+              {(ending) => (
+                <a
+                  class="button small ghost"
+                  href={reportAddress(now().id, ending)}
+                  download=""
+                  title={`Download the report as ${ending.toUpperCase()}`}
+                >
+                  <Icon of={Download} />
+                  {ending.toUpperCase()}
+                </a>
+              )}
+            </For>
+          </div>
+        )}
+      </Show>
       <p class="hint">
         All controllers get the same starts, goals, seeds and disturbances on a map. The paper
         evaluated only RL, on its robot and in one maze, which <em>colon</em> is modelled on: 30
@@ -111,18 +117,6 @@ export function EvaluationPanel(props: {
       <Show when={report()}>
         {(now) => (
           <>
-            <Show when={now().rows.length > 0}>
-              <div class="downloads">
-                <span class="hint">Download</span>
-                <For each={REPORTS}>
-                  {(ending) => (
-                    <a class="button small" href={reportAddress(now().id, ending)} download="">
-                      {ending.toUpperCase()}
-                    </a>
-                  )}
-                </For>
-              </div>
-            </Show>
             <Show when={now().comparisons.length > 0}>
               <h3>Paired differences</h3>
               <ComparisonTable comparisons={now().comparisons} />

@@ -7,7 +7,8 @@ import type { EvaluationCell, EvaluationSummary, PaperRow, Row } from '../../net
 import { fixed } from '../../ui/format';
 import { Cells, type Column, Heads } from '../../ui/Table';
 import { IntervalBar } from './IntervalBar';
-import { cm, decisionWords, percentRange, ratio } from './table';
+import { Named } from './Named';
+import { cm, percentRange, ratio } from './table';
 import { variedWords } from './varied';
 import './tables.css';
 
@@ -18,9 +19,9 @@ function Share(props: {
 }): JSX.Element {
   return (
     <div class="count">
-      <span class="counts">
+      <b>
         {props.count}/{props.of}
-      </span>
+      </b>
       <span class="range-words">{percentRange(props.interval)}</span>
       <IntervalBar share={props.count / props.of} interval={props.interval} />
     </div>
@@ -28,8 +29,17 @@ function Share(props: {
 }
 
 const ABOUT: readonly Column<EvaluationCell>[] = [
-  { name: 'Controller', isHead: true, cell: controllerLabel },
-  { name: 'Map', cell: ({ map }) => map },
+  {
+    name: 'Controller',
+    unit: 'map',
+    isHead: true,
+    cell: (one) => (
+      <>
+        <Named of={one.controller}>{controllerLabel(one)}</Named>
+        <small>{one.map}</small>
+      </>
+    ),
+  },
 ];
 const VARIED: Column<EvaluationCell> = {
   name: 'Varied',
@@ -59,22 +69,12 @@ const MEASURED: readonly (Column<Row> & { readonly paper?: (row: Common) => JSX.
     cell: (row) => <Share count={row.delivered} of={row.episodes} interval={row.wilson95} />,
   },
   {
-    name: 'Error, mean',
-    unit: 'cm',
-    title: 'Distance between tool and bead during transport, mean over the episodes',
-    ...centimetres('tracking_error_mean_m'),
-  },
-  {
-    name: 'max x',
-    unit: 'cm',
-    title: 'Largest difference in x during transport, mean over the episodes',
-    ...centimetres('tracking_error_max_x_m'),
-  },
-  {
-    name: 'max y',
-    unit: 'cm',
-    title: 'Largest difference in y during transport, mean over the episodes',
-    ...centimetres('tracking_error_max_y_m'),
+    name: 'Error',
+    unit: 'cm; x · y',
+    title:
+      'Distance between tool and bead during transport, and its largest differences in x and y: means over the episodes',
+    cell: error,
+    paper: error,
   },
   {
     name: 'Path ÷ shortest',
@@ -84,20 +84,26 @@ const MEASURED: readonly (Column<Row> & { readonly paper?: (row: Common) => JSX.
   },
   {
     name: 'Steps',
-    title: 'Control steps, mean over the episodes',
-    cell: (row) => fixed(row.steps_mean, 1),
-  },
-  {
-    name: 'Switches',
-    title: 'Switches of the active sub-controller, mean over the episodes',
-    cell: (row) => fixed(row.switches_mean, 2),
+    unit: 'switches',
+    title: 'Control steps, and switches of the active sub-controller: means over the episodes',
+    cell: (row) => (
+      <>
+        {fixed(row.steps_mean, 1)}
+        <small>{fixed(row.switches_mean, 2)}</small>
+      </>
+    ),
   },
   {
     name: 'Decision',
-    unit: 'ms, p50 · p99',
+    unit: 'ms; p99',
     title:
       'Computing time of a control step with its camera image: median and 99th percentile, including all other work of this machine',
-    cell: decisionWords,
+    cell: (row) => (
+      <>
+        {fixed(row.decision_ms_p50, 1)}
+        <small>{fixed(row.decision_ms_p99, 1)}</small>
+      </>
+    ),
   },
 ];
 
@@ -105,10 +111,18 @@ function reached({ successes, episodes, successes_wilson95 }: Common): JSX.Eleme
   return <Share count={successes} of={episodes} interval={successes_wilson95} />;
 }
 
-/** A number that the paper has, too. */
-function centimetres(name: `tracking_error_${'mean' | 'max_x' | 'max_y'}_m`) {
-  const cell = (row: Common): string => cm(row[name]);
-  return { cell, paper: cell };
+function error(row: Common): JSX.Element {
+  const { tracking_error_max_x_m: x_m, tracking_error_max_y_m: y_m } = row;
+  return (
+    <>
+      {cm(row.tracking_error_mean_m)}
+      <Show when={x_m !== null && y_m !== null}>
+        <small>
+          {cm(x_m)} · {cm(y_m)}
+        </small>
+      </Show>
+    </>
+  );
 }
 
 /** A cell whose row has not arrived. */
@@ -119,14 +133,14 @@ function pendingWords({ done, delivered }: EvaluationCell, summary: EvaluationSu
   return hasEnded ? `stopped after ${counted}` : `${counted} so far`;
 }
 
-function Paper(props: { paper: PaperRow }): JSX.Element {
+function Paper(props: { paper: PaperRow; columns: number }): JSX.Element {
   return (
     <tr class="paper">
-      <th scope="row" colspan="3">
+      <th scope="row" colspan={props.columns}>
         paper, {props.paper.section}: “{props.paper.printed}”
       </th>
       <For each={MEASURED}>
-        {({ paper }) => (paper ? <td>{paper(props.paper)}</td> : <td class="none">–</td>)}
+        {({ name, paper }) => <td data-label={name}>{paper?.(props.paper) ?? '–'}</td>}
       </For>
     </tr>
   );
@@ -142,7 +156,7 @@ export function EvaluationTable(props: {
       : [...ABOUT, DISTURBANCES];
   return (
     <div class="table-frame" tabindex="0" role="region" aria-label="Results">
-      <table class="results number">
+      <table class="data-table">
         <thead>
           <tr>
             <Heads columns={[...about(), ...MEASURED]} />
@@ -166,7 +180,9 @@ export function EvaluationTable(props: {
                     {(row) => <Cells columns={MEASURED} row={row()} />}
                   </Show>
                 </tr>
-                <Show when={cell().paper}>{(paper) => <Paper paper={paper()} />}</Show>
+                <Show when={cell().paper}>
+                  {(paper) => <Paper paper={paper()} columns={about().length} />}
+                </Show>
               </>
             )}
           </Index>

@@ -73,7 +73,7 @@ export function FailureList(props: {
     >
       <div class="table-frame" tabindex="0" role="region" aria-label="Failures">
         <Table
-          class="failures number"
+          class="data-table failures"
           columns={columns}
           rows={props.report.failures.slice(0, shown())}
         />

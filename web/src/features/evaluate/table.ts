@@ -1,7 +1,7 @@
 // Rows as text: in the table, and in the files to download. Pure.
 
 import { fixed } from '../../ui/format';
-import type { EvaluationFailure, Row } from '../../net/protocol.gen';
+import type { EvaluationFailure } from '../../net/protocol.gen';
 import { addressOf } from '../../net/base';
 
 export function percentRange([low, high]: readonly [number, number]): string {
@@ -11,10 +11,6 @@ export function percentRange([low, high]: readonly [number, number]): string {
 /** Centimetres without the unit, which is in the column's head. */
 export function cm(value_m: number | null): string {
   return value_m === null ? '–' : fixed(100 * value_m, 1);
-}
-
-export function decisionWords(row: Row): string {
-  return `${fixed(row.decision_ms_p50, 1)} · ${fixed(row.decision_ms_p99, 1)}`;
 }
 
 /** Why a trial failed, in the words of its report. */
@@ -30,17 +26,6 @@ export function ratio(value: number | null): string {
 export function signed(value: number, digits: number): string {
   const text = fixed(value, digits);
   return value > 0 ? `+${text}` : text;
-}
-
-/** A difference and its interval, multiplied by `scale`. */
-export function difference(
-  mean: number,
-  [low, high]: readonly [number, number],
-  scale: number,
-  digits: number,
-): string {
-  const text = (value: number): string => signed(value * scale, digits);
-  return `${text(mean)} (${text(low)} to ${text(high)})`;
 }
 
 /** The server's files of an evaluation. */

@@ -1,7 +1,9 @@
 // Buttons that save a picture or a video of the view, and the clock of a video that is being recorded.
 
 import { Show, onCleanup, type JSX } from 'solid-js';
+import { Image as ImageIcon, Video } from 'lucide';
 import { duration } from '../../ui/format';
+import { Icon } from '../../ui/Icon';
 import { SmallButton } from '../../ui/SmallButton';
 import type { Capture } from './capture';
 import { VIDEO_LIMIT_S } from './video';
@@ -15,23 +17,27 @@ export function CaptureTools(props: { capture: Capture }): JSX.Element {
   return (
     <div class="capture" role="group" aria-label="Picture and video">
       <div class="buttons">
-        <SmallButton
+        <button
+          type="button"
           title="The plan or the 3-D view as it is now"
           disabled={!capture.isReady()}
           onClick={() => void capture.savePicture()}
         >
+          <Icon of={ImageIcon} />
           Picture (PNG)
-        </SmallButton>
+        </button>
         <Show when={capture.canRecord}>
-          <SmallButton
+          <button
+            type="button"
             disabled={!capture.isReady()}
             onClick={() => {
               if (isRecording()) capture.stopVideo();
               else capture.startVideo();
             }}
           >
+            <Icon of={Video} />
             {isRecording() ? 'Stop video' : 'Record video'}
-          </SmallButton>
+          </button>
         </Show>
       </div>
       <p class="capture-done" role="status">

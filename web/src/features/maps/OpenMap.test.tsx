@@ -15,7 +15,7 @@ async function open() {
       <PlaceNotice lab={lab} place="playback" />
     </>
   ));
-  await expect.element(page.getByRole('button', { name: 'Open map…' })).toBeEnabled();
+  await expect.element(page.getByRole('button', { name: 'Open SVG…' })).toBeEnabled();
   return server;
 }
 

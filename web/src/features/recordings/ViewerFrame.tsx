@@ -34,8 +34,8 @@ export function ViewerFrame(props: {
     frame.contentWindow?.addEventListener('keydown', leave, { capture: true });
   };
   return (
-    <section class="panel viewer" aria-labelledby="viewer-title">
-      <div class="panel-head">
+    <section class="viewer" aria-labelledby="viewer-title">
+      <header>
         <h2 id="viewer-title">
           {props.name} <span class="viewer-note">{label(props.file)}</span>
         </h2>
@@ -51,7 +51,7 @@ export function ViewerFrame(props: {
         <SmallButton ref={closer} onClick={props.onClose}>
           Close
         </SmallButton>
-      </div>
+      </header>
       <iframe ref={frame} src={address} title="Rerun viewer" onLoad={listenForLeaving} />
     </section>
   );

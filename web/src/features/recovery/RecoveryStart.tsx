@@ -69,7 +69,7 @@ export function RecoveryStart(props: {
       send={start}
       button={`Map from ${clock(lab.state()?.sim_time_s ?? 0)}`}
       icon={Shield}
-      endClass="inspector-foot"
+      isFoot
       buttonTitle="Tries each disturbance from the shown moment under each controller, beside the session"
       disabled={!lab.canOperate()}
       beside={

@@ -8,6 +8,7 @@ import { Icon } from '../../ui/Icon';
 import { NumberInput } from '../../ui/fields/NumberInput';
 import { numberFault, numberOf } from '../../ui/fields/number';
 import { createPending } from '../../ui/pending';
+import './setup.css';
 
 const SEED_LIMIT = 2 ** 32;
 
@@ -25,7 +26,7 @@ export function Seed(props: { lab: Session & Notices; seed: number }): JSX.Eleme
   createEffect(on(seed.value, show));
   return (
     <form
-      class="field"
+      class="field seed"
       onSubmit={(event) => {
         event.preventDefault();
         seed.choose(numberOf(typed() ?? String(props.seed)));
@@ -41,7 +42,6 @@ export function Seed(props: { lab: Session & Notices; seed: number }): JSX.Eleme
         aria-busy={seed.isPending()}
         disabled={!lab.canOperate()}
         title="Enter resets the trial with this seed"
-        style={{ '--digits': String(props.seed).length }}
         onInput={setTyped}
         onBlur={() => {
           if (numberFault(typed() ?? '0') === undefined) show();
@@ -50,7 +50,7 @@ export function Seed(props: { lab: Session & Notices; seed: number }): JSX.Eleme
       <CommandButton
         lab={lab}
         at="playback"
-        class="icon-only"
+        class="ghost icon-only"
         aria-label="New seed"
         title="Resets the trial with a random seed"
         command={() => ({ type: 'reset', seed: Math.floor(Math.random() * SEED_LIMIT) })}

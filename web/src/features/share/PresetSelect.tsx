@@ -21,7 +21,6 @@ export function PresetSelect(props: { lab: Session; links: PageExperiment }): JS
   return (
     <ServerSelect
       label="Preset"
-      hideLabel
       value={value()}
       options={OPTIONS}
       disabled={!lab.canOperate()}

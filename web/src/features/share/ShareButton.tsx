@@ -1,8 +1,10 @@
 // The page's experiment as a link to copy.
 
 import { Show, createEffect, createResource, createSignal, type JSX } from 'solid-js';
+import { Copy, Share2 } from 'lucide';
 import { drawingForLink } from '../../lab/drawingLink';
 import type { PageExperiment } from '../../lab/pageExperiment';
+import { Icon } from '../../ui/Icon';
 import { createPopover } from '../../ui/popover';
 import './share.css';
 
@@ -43,11 +45,23 @@ export function ShareButton(props: {
   };
   return (
     <div {...popover.box} class="share">
-      <button {...popover.button} disabled={props.links.now() === undefined}>
-        Share
+      <button
+        {...popover.button}
+        aria-label="Share"
+        title="Share: a link, a picture or a video"
+        disabled={props.links.now() === undefined}
+      >
+        <Icon of={Share2} />
+        <span class="share-word">Share</span>
       </button>
       <Show when={popover.open()}>
-        <div id="share" class="share-box" role="group" aria-label="Share this experiment">
+        <div
+          id="share"
+          class="popover of-top share-box"
+          role="group"
+          aria-label="Share this experiment"
+        >
+          <h3>Link to this experiment</h3>
           <div class="share-row">
             <input
               ref={field}
@@ -58,19 +72,17 @@ export function ShareButton(props: {
               onFocus={() => field.select()}
             />
             <button type="button" class="primary" onClick={copy}>
+              <Icon of={Copy} />
               Copy
             </button>
           </div>
           <p class="share-done" role="status">
             {copied()}
           </p>
-          <p>
-            The link contains the map, seed, start, goal, controller, changed parameters and
-            scripted disturbances. On a Ferry server it loads this experiment. {drawn()?.remark}
-          </p>
           <p class="hint">
-            It begins at the start of this trial, with the last goal. It does not contain what you
-            did by hand, such as drags and kicks.
+            It contains the map, seed, start, goal, controller, changed parameters and scripted
+            disturbances, and begins at the start of this trial, with the last goal. It does not
+            contain what you did by hand, such as drags and kicks. {drawn()?.remark}
           </p>
           {props.children}
         </div>

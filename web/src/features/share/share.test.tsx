@@ -23,8 +23,8 @@ async function open() {
     const links = createPageExperiment(lab, window);
     linkNow = links.now;
     return (
-      // The popover opens upwards.
-      <div style={{ 'padding-top': '500px' }}>
+      // The popover is below the top bar.
+      <div style={{ '--top': '300px' }}>
         <ExperimentNotice lab={lab} links={links} />
         <PresetSelect lab={lab} links={links} />
         <ShareButton links={links} map={lab.scene()?.map}>

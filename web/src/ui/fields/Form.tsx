@@ -64,10 +64,10 @@ export function Form(props: {
   disabled: boolean;
   /** Why it is disabled. */
   why?: string | undefined;
+  /** The button stays in sight, as the foot of the inspector. */
+  isFoot?: boolean;
   /** Beside the button. */
   beside?: JSX.Element;
-  /** Of the row of the button, as `inspector-foot`. */
-  endClass?: string | undefined;
   /** Enter in a field does not send it. */
   byButtonOnly?: boolean;
   children: JSX.Element;
@@ -144,7 +144,7 @@ export function Form(props: {
       }}
     >
       <Fields.Provider value={fields}>{props.children}</Fields.Provider>
-      <div class={`form-end ${props.endClass ?? ''}`}>
+      <div class="form-end" classList={{ 'inspector-foot': props.isFoot }}>
         <button
           type="submit"
           class={props.buttonClass ?? 'primary'}
@@ -163,10 +163,10 @@ export function Form(props: {
         <Show when={!props.isInline && summary()}>
           {(words) => <span class="refusal">{words()}</span>}
         </Show>
+        <p class="refusal" role="alert">
+          {general()}
+        </p>
       </div>
-      <p class="refusal" role="alert">
-        {general()}
-      </p>
     </form>
   );
 }

@@ -154,6 +154,8 @@ export function CheckField<T extends string | number>(
     all: readonly T[];
     value: readonly T[];
     text?: (item: T) => string;
+    /** Before the text. */
+    mark?: (item: T) => JSX.Element;
     /** What is done with them, before each accessible name. */
     verb?: string;
     /** What to choose, if none is. */
@@ -184,6 +186,7 @@ export function CheckField<T extends string | number>(
                   );
                 }}
               />
+              {props.mark?.(item)}
               {text(item)}
             </label>
           )}
