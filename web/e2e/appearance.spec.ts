@@ -132,9 +132,7 @@ test('the tests above cover every view and every tab list', async ({ lab }) => {
   for (const name of VIEWS) {
     await lab.view(name).click();
     await lab.drawn();
-    await expect(lab.page.getByRole('tablist')).toHaveCount(
-      name === 'Lab' ? TAB_AREAS.length : 0,
-    );
+    await expect(lab.page.getByRole('tablist')).toHaveCount(name === 'Lab' ? TAB_AREAS.length : 0);
   }
 });
 

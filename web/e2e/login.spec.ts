@@ -30,7 +30,8 @@ const test = base.extend<{ guarded: Guarded }>({
 });
 
 const field = (page: Page) => page.getByLabel('Token', { exact: true });
-const isLive = (page: Page) => expect(page.getByTestId('connection')).toHaveAttribute('data-link', 'live');
+const isLive = (page: Page) =>
+  expect(page.getByTestId('connection')).toHaveAttribute('data-link', 'live');
 
 /** All addresses that a page sends. A browser does not send the part after the `#`. */
 function addressesOf(context: BrowserContext) {

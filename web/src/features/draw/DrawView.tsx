@@ -31,6 +31,7 @@ export default function DrawView(props: {
   const isLive = createMemo(() => lab.connection().kind === 'live');
   const check = createCheck(svg, isLive);
   listen('keydown', (event) => onUndoKey(editor, event));
+  const frame = () => editor.editing().drawing.frame;
   const place = (): string => {
     const at = editor.pointer();
     return at ? `x ${fixed(at[0] / 1000, 3)} y ${fixed(-at[1] / 1000, 3)} m` : '';
@@ -59,7 +60,7 @@ export default function DrawView(props: {
           <output class="readout number" aria-live="off">
             {place()}
           </output>
-          <ScaleBar />
+          <ScaleBar width_m={frame().width_mm / 1000} height_m={frame().height_mm / 1000} />
         </>
       }
       inspectorName="Check and use"

@@ -4,7 +4,10 @@ import { nextSpeed, ticksToControlStep } from './steps';
 import { hintAtGoal, runOrPause } from './run';
 import type { Addressed, Notices, Session, Trial } from '../../lab/slices';
 
-export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices & Addressed> = (lab, operate) => {
+export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices & Addressed> = (
+  lab,
+  operate,
+) => {
   const shiftSpeed = (direction: 1 | -1) =>
     operate(() => {
       const target = lab.state()?.speed_target ?? 1;

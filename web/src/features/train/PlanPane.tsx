@@ -36,15 +36,11 @@ export function PlanPane(props: {
   isNamed: boolean;
 }): JSX.Element {
   const { watch } = props;
-  const [map, setMap] = createSignal<MapCheck>();
-  const walls = createAttempt();
   const query = () => watch.summary().query;
-  void walls.attempt(checkOfMap(query().map).then(setMap));
   const empty = (): string =>
     isActive(watch.summary())
       ? `${props.sentence} The first value map comes with the first updates.`
       : 'This training has no value maps.';
-  const fault = (): string | undefined => watch.error() ?? walls.refusal();
   return (
     <section class="train-pane" aria-label={query().name}>
       <Show when={props.isNamed}>
@@ -58,7 +54,7 @@ export function PlanPane(props: {
       <TrainingPlan
         label={`Plan of ${query().map} with the values of ${query().name}`}
         helpId={HELP_ID}
-        map={map()}
+        map={watch.map()}
         cells={watch.cells()}
         frame={watch.frame()}
         range={props.range}
@@ -70,7 +66,7 @@ export function PlanPane(props: {
         <p class="train-veil">{empty()}</p>
       </Show>
       <p class="refusal train-veil" role="alert">
-        {fault()}
+        {watch.error()}
       </p>
     </section>
   );

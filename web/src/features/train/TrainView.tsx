@@ -222,8 +222,8 @@ export default function TrainView(props: {
               how its value changed.
             </Show>
           </p>
-          <Show when={watches().length < 2}>
-            <ScaleBar />
+          <Show when={watches().length === 1 && watches()[0]?.map()}>
+            {(map) => <ScaleBar width_m={map().width_m} height_m={map().height_m} />}
           </Show>
         </>
       }

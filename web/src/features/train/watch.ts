@@ -1,8 +1,10 @@
 // A training that is watched: which of its value maps is shown, and its cell at the chosen place.
 
 import { createEffect, createMemo, createSignal, onCleanup, type Accessor } from 'solid-js';
+import { checkOfMap } from '../../lab/maps';
 import { isActive } from '../../lab/trainingStage';
-import type { TrainingFrame, TrainingSummary } from '../../net/protocol.gen';
+import type { MapCheck, TrainingFrame, TrainingSummary } from '../../net/protocol.gen';
+import { createAttempt } from '../../ui/attempt';
 import { counted } from '../../ui/format';
 import { cellAt } from './grid';
 import { place_m } from './state';
@@ -12,6 +14,9 @@ const PLAY_MS = 350;
 
 /** The id of the training stays the same. */
 export function createWatch(summary: Accessor<TrainingSummary>) {
+  const [map, setMap] = createSignal<MapCheck>();
+  const walls = createAttempt();
+  void walls.attempt(checkOfMap(summary().query.map).then(setMap));
   /** Index of the shown value map; undefined: the newest. */
   const [at, setAt] = createSignal<number>();
   const [isPlaying, setPlaying] = createSignal(false);
@@ -57,7 +62,9 @@ export function createWatch(summary: Accessor<TrainingSummary>) {
     cell,
     frame,
     cells: maps.cells,
-    error: maps.error,
+    /** Its walls and its size. */
+    map,
+    error: (): string | undefined => maps.error() ?? walls.refusal(),
     /** All value maps that have been read. */
     read: createMemo(() => maps.frames().filter((one) => one !== undefined)),
     isPlaying,
