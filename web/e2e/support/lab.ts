@@ -1,7 +1,8 @@
 // Operates the page as an operator does. Reads only the page and the messages of its WebSocket.
 
 import { type Locator, type Page, expect } from '@playwright/test';
-import { Stepper, keepSocket } from './stepper';
+import { LabControls } from './labControls';
+import { keepSocket } from './stepper';
 import { countGpu } from './shown';
 import { type Point, type PointLike, distance, flat, freePoints, wallPoint } from './table';
 import { must, until } from './wait';
@@ -9,22 +10,9 @@ import { must, until } from './wait';
 const GOAL_RADIUS_M = 0.02;
 const OPEN_MS = 30_000;
 const DELIVERY_MS = 60_000;
-/** Panels under the tab *Test*. */
-const TESTS: readonly string[] = ['Compare', 'Recovery', 'Disturb'];
-export type Panel =
-  'Now' | 'Story' | 'Learn' | 'Play' | 'Compare' | 'Recovery' | 'Disturb' | 'Tune';
 export type ControllerLabel = 'RL' | 'ERRT' | 'Attractor' | 'You';
 
-export class Lab extends Stepper {
-  readonly canvas: Locator;
-  downloads = 0;
-
-  constructor(page: Page) {
-    super(page);
-    this.canvas = page.getByLabel('Workspace', { exact: true });
-    page.on('download', () => (this.downloads += 1));
-  }
-
+export class Lab extends LabControls {
   /** Opens a session's page and waits until it is connected. */
   static async attach(page: Page, url: string) {
     const lab = await Lab.watch(page, url);
@@ -70,45 +58,6 @@ export class Lab extends Stepper {
   /** Waits until the page shows the state of a tick. */
   async isAtTick(tick: number) {
     await expect(this.page.getByTestId('sim-time')).toHaveAttribute('title', `tick ${tick}`);
-  }
-
-  button(name: string) {
-    return this.page.getByRole('button', { name, exact: true });
-  }
-
-  tab(name: string) {
-    return this.page.getByRole('tab', { name, exact: true });
-  }
-
-  /** Opens a panel of the inspector. */
-  async panel(name: Panel) {
-    const isTest = TESTS.includes(name);
-    await this.tab(isTest ? 'Test' : name).click();
-    if (isTest) await this.radio(name).check();
-  }
-
-  view(name: string) {
-    return this.page
-      .getByRole('navigation', { name: 'Views' })
-      .getByRole('link', { name, exact: true });
-  }
-
-  radio(name: string) {
-    return this.page.getByRole('radio', { name, exact: true });
-  }
-
-  spin(name: string) {
-    // The name of a changed parameter ends in a dot.
-    const words = name.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&');
-    return this.page.getByRole('spinbutton', { name: new RegExp(`^${words}( •)?$`) });
-  }
-
-  label(name: string) {
-    return this.page.getByLabel(name, { exact: true });
-  }
-
-  notice(place: string) {
-    return this.page.locator(`[data-place=${place}] .notice`);
   }
 
   /** Where the goal of the shown state is, in metres. */
@@ -202,23 +151,12 @@ export class Lab extends Stepper {
     });
   }
 
-  /** In the panel *Set up*. */
-  mapChoice(name: string) {
-    const maps = this.page.getByRole('radiogroup', { name: 'Map' });
-    return maps.getByRole('radio', { name, exact: true });
-  }
-
   async map(name: string) {
     if (this.scene.map === name) return;
     await this.setUp();
     await this.mapChoice(name).check();
     await this.setUp();
     await this.shown(`map ${name}`, () => this.scene.map === name);
-  }
-
-  /** Opens or closes the panel *Set up*. */
-  async setUp() {
-    await this.page.getByRole('region', { name: 'Experiment' }).locator('.experiment').click();
   }
 
   async reset({ speed = '1', map = 'posts' } = {}) {

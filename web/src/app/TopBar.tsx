@@ -19,7 +19,7 @@ function Experiment(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
   const disturbances = (): string => {
     const { length } = lab.scene()?.scenario.script ?? [];
-    return length === 0 ? 'No disturbance' : `${counted(length, 'disturbance')}`;
+    return length === 0 ? 'No disturbance' : counted(length, 'disturbance');
   };
   return (
     <Show when={lab.scene()}>

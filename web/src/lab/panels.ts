@@ -17,11 +17,11 @@ const isTabbed = (panel: PanelName): panel is TabbedPanel =>
 export interface Panels {
   /** The open panel; undefined while the inspector is hidden. */
   readonly panel: Accessor<PanelName | undefined>;
-  showPanel(panel: PanelName): void;
+  readonly showPanel: (panel: PanelName) => void;
   /** Closes a panel without a tab; otherwise hides the inspector. */
-  closePanel(): void;
+  readonly closePanel: () => void;
   /** Hides the inspector, or shows its last panel again. */
-  toggleInspector(): void;
+  readonly toggleInspector: () => void;
 }
 
 export function createPanels(): Panels {
