@@ -3,6 +3,7 @@
 import './styles/tokens.css';
 import './styles/type.css';
 import './styles/reset.css';
+import './ui/buttons.css';
 import './ui/controls.css';
 import './ui/text.css';
 import './ui/panel.css';

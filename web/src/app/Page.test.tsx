@@ -4,6 +4,7 @@ import { expect, it } from 'vitest';
 import { eventAt } from '../lab/testingFacts';
 import { page, userEvent } from 'vitest/browser';
 import { fakeServer, show, type FakeServer } from '../lab/testingLab';
+import type { TabbedPanel } from '../lab/panels';
 import type { MapReport } from '../net/protocol.gen';
 import { Page } from './Page';
 
@@ -19,34 +20,22 @@ const REPORT: MapReport = {
   reached_share: 1,
   repairs: [],
 };
-const OPERATOR_BUTTONS = [
-  'Run',
-  'Step',
-  'Reset',
-  'Open map…',
-  'New seed',
-  'Restore defaults',
-  'Disturb',
-  'Clear goal',
-];
-
-const PANELS = ['camera', 'parameters', 'lower', 'aside'];
+const OPERATOR_BUTTONS = ['Run', 'Step', 'Reset', 'Restore defaults', 'Disturb', 'Clear goal'];
 
 const button = (name: string) => page.getByRole('button', { name, exact: true });
 const view = (name: string) => page.getByRole('link', { name, exact: true });
 const notice = (place: string) => document.querySelector(`[data-place=${place}] .notice`);
+const connection = page.getByTestId('connection');
 const canvas = page.getByLabelText('Workspace', { exact: true });
 
-/** The page without tips. */
-async function open(answers = {}, panels = PANELS): Promise<FakeServer> {
+/** The page without tips, with a panel of the inspector. */
+async function open(answers = {}, panel: TabbedPanel = 'tune'): Promise<FakeServer> {
   localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
-  for (const panel of panels) {
-    localStorage.setItem(`ferry.panel.${panel}`, 'open');
-  }
+  localStorage.setItem('ferry.panel', panel);
   const server = fakeServer(answers);
   show(() => <Page />);
-  await expect.element(page.getByTestId('connection')).toHaveTextContent('live');
-  await expect.element(page.getByTestId('recording')).toBeVisible();
+  await expect.element(connection).toHaveAttribute('data-link', 'live');
+  await expect.element(button('Run')).toBeVisible();
   return server;
 }
 
@@ -63,10 +52,9 @@ function drop(name: string, text: string): void {
 
 it('opens as the operator, and every control has a name', async () => {
   await open();
-  await expect.element(page.getByTestId('role')).toHaveTextContent('operator');
+  await expect.element(connection).toHaveAttribute('data-role', 'operator');
   await expect.element(button('Run')).toBeEnabled();
   await expect.element(page.getByText('Simulation, not safety-rated')).toBeVisible();
-  expect(document.querySelector('[data-testid=session-name]')).toBeNull();
   const controls = document.querySelectorAll<HTMLInputElement>('button, input, select, canvas');
   const unnamed = [...controls].filter((one) => {
     const labels = one.labels as NodeListOf<Element> | null | undefined;
@@ -108,7 +96,8 @@ it('shows why a goal is refused, and sends none beside the table', async () => {
 it('reports a lost connection', async () => {
   const server = await open();
   server.disconnect();
-  await expect.element(page.getByTestId('connection')).toHaveTextContent(/^reconnecting/);
+  await expect.element(connection).toHaveAttribute('data-link', 'lost');
+  await expect.element(page.getByText('No connection: reconnecting')).toBeVisible();
   await expect.element(button('Run')).toBeDisabled();
 });
 
@@ -149,19 +138,20 @@ it('runs shortcuts anywhere', async () => {
 it('runs no shortcut while typing, behind the help, or when they are off', async () => {
   const server = await open();
   const { keyboard } = userEvent;
+  await page.getByTitle('Set up: map, preset, seed').click();
   const seed = page.getByLabelText('Seed', { exact: true });
   await seed.click();
   await keyboard('2rg');
   await expect.element(seed).toHaveFocus();
 
-  const larger = button('Larger');
-  (larger.element() as HTMLElement).focus();
+  const plots = button('Plots');
+  (plots.element() as HTMLElement).focus();
   await keyboard('?');
   const help = page.getByRole('dialog', { name: 'Help' });
   await expect.element(help.getByText('grab or release the bead')).toBeVisible();
   await keyboard('r');
   await keyboard('{Escape}');
-  await expect.element(larger).toHaveFocus();
+  await expect.element(plots).toHaveFocus();
 
   await button('Help').click();
   await help.getByRole('checkbox').click();
@@ -178,7 +168,7 @@ it('runs no shortcut while typing, behind the help, or when they are off', async
 });
 
 it('announces events and roles one at a time', async () => {
-  const server = await open();
+  const server = await open({}, 'story');
   const said: [at_ms: number, text: string][] = [];
   const region = page.getByTestId('live-region').element();
   new MutationObserver(() => said.push([performance.now(), region.textContent])).observe(region, {
@@ -217,7 +207,7 @@ it('takes a drawing that is dropped in another view', async () => {
   await expect.poll(() => server.command('load_scenario')?.map).toBe('dropped');
   server.scene({ map: 'dropped' });
   await expect.element(page.getByText('580 × 330 mm, 2 walls.')).toBeVisible();
-  await expect.element(view('Laboratory')).toHaveAttribute('aria-current', 'page');
+  await expect.element(view('Lab')).toHaveAttribute('aria-current', 'page');
 });
 
 it('has Run among the first ten stops of the Tab key', async () => {
@@ -230,38 +220,50 @@ it('has Run among the first ten stops of the Tab key', async () => {
   expect(stops).toContain('Run');
 });
 
-it('shows the first visit on one screen', async () => {
-  await open({}, []);
+it('keeps the scale of the map, whatever is open', async () => {
+  await open({}, 'now');
+  const box = document.querySelector('.map-box');
+  const size = (): number[] => {
+    const { width, height } = box?.getBoundingClientRect() ?? { width: NaN, height: NaN };
+    return [Math.round(width), Math.round(height)];
+  };
+  const { documentElement: whole } = document;
+  const beyond = () => [whole.scrollWidth - innerWidth, whole.scrollHeight - innerHeight];
   for (const [width, height] of [
     [1280, 800],
     [1440, 900],
     [2560, 1440],
   ] as const) {
     await page.viewport(width, height);
-    const { documentElement: whole } = document;
-    const beyond = () => [whole.scrollWidth - innerWidth, whole.scrollHeight - innerHeight];
     await expect.poll(beyond, { message: `px beyond ${width}×${height}` }).toEqual([0, 0]);
-    await expect.poll(() => heightOf('.workspace')).toBeGreaterThan(0.6 * height);
+    const first = size();
+    expect(first[1]).toBeGreaterThanOrEqual(0.6 * height);
+    for (const press of [
+      button('Plots'),
+      button('Hide the panel'),
+      button('Plots'),
+      button('Show the panel'),
+      button('Layers'),
+      page.getByRole('tab', { name: 'Test' }),
+    ]) {
+      await press.click();
+      expect(size()).toEqual(first);
+      expect(beyond()).toEqual([0, 0]);
+    }
+    await page.getByRole('tab', { name: 'Now' }).click();
   }
   await page.viewport(1280, 800);
 });
 
-it('has the playback bar in one row on a phone, until it is opened', async () => {
+it('has a panel as a sheet over half of the map on a phone', async () => {
   await page.viewport(390, 844);
-  await open();
-  const speed = page.getByLabelText('Speed', { exact: true });
+  await open({}, 'now');
   expect(document.documentElement.scrollWidth).toBeLessThanOrEqual(390);
-  expect(heightOf('.transport')).toBeLessThan(110);
-  await expect.element(speed).not.toBeVisible();
-  await button('More').click();
-  await expect.element(speed).toBeVisible();
-  await button('More').click();
-  await expect.poll(() => heightOf('.transport')).toBeLessThan(110);
-  // No blank space below the panels.
-  scrollTo(0, document.documentElement.scrollHeight);
-  const last = [...document.querySelectorAll('main > .panel')].at(-1)?.getBoundingClientRect();
-  const bar = document.querySelector('.transport')?.getBoundingClientRect();
-  expect(bar?.bottom).toBeCloseTo(844, 0);
-  expect((bar?.top ?? NaN) - (last?.bottom ?? NaN)).toBeLessThan(24);
+  expect(document.querySelector('.inspector')).toBeNull();
+  await button('Story').click();
+  await expect.poll(() => heightOf('.inspector')).toBeGreaterThan(200);
+  expect(heightOf('.inspector')).toBeLessThan(0.53 * heightOf('.stage'));
+  await button('Steer').click();
+  await expect.poll(() => document.querySelector('.inspector')).toBeNull();
   await page.viewport(1280, 800);
 });

@@ -24,10 +24,11 @@ async function used(): Promise<{ server: FakeServer; controls: number }> {
   localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
   const server = fakeServer();
   show(() => <Page />);
-  await expect.element(page.getByTestId('connection')).toHaveTextContent('live');
+  await expect.element(page.getByTestId('connection')).toHaveAttribute('data-link', 'live');
   server.lists({ maps: ['posts', 'colon'] });
   server.state({ controller: 'rl', goal_m: [0.1, -0.3, 0] });
   await expect.element(rl).toBeChecked();
+  await page.getByTitle('Set up: map, preset, seed').click();
   await page.getByTitle('Set up: map, preset, seed').click();
   await button('Run').click();
   await button('Step').click();

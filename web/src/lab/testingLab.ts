@@ -2,6 +2,7 @@
 
 import '../styles/tokens.css';
 import '../styles/reset.css';
+import '../ui/buttons.css';
 import '../ui/controls.css';
 import '../ui/text.css';
 import '../ui/panel.css';
