@@ -12,6 +12,7 @@ import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
 import { fillIn } from '../features/evaluate/draft';
 import { Dock } from './Dock';
+import { Help } from './Help';
 import { Inspector } from './Inspector';
 import { MAP_LAYERS } from './layers';
 import { PhoneTabs } from './PhoneTabs';
@@ -102,7 +103,6 @@ export function Page(): JSX.Element {
             }}
             above={<FailureCard lab={lab} />}
           />
-          <PhoneTabs lab={lab} />
         </Match>
         <Match when={view() === 'draw'}>
           <DrawView lab={lab} open={(file) => opener.open(file)} />
@@ -123,6 +123,8 @@ export function Page(): JSX.Element {
           <EvaluateView lab={lab} />
         </Match>
       </Switch>
+      <PhoneTabs lab={lab} />
+      <Help lab={lab} />
     </>
   );
 }

@@ -1,11 +1,15 @@
-// The tabs at the foot of a phone.
+// The tabs at the foot of a phone. *More* has what has no tab.
 
 import { For, Show, type JSX } from 'solid-js';
 import { BookOpen, Ellipsis, FlaskConical, type IconNode, ScrollText, Trophy } from 'lucide';
 import type { PanelName } from '../lab/panels';
 import type { Lab } from '../lab/slices';
 import { Icon } from '../ui/Icon';
+import { createPopover } from '../ui/popover';
 import { isPhone } from '../ui/windowSize';
+import { HelpButton } from './Help';
+import { ThemeButton } from './ThemeButton';
+import { ViewLinks } from './ViewLinks';
 import './PhoneTabs.css';
 
 /** Without a panel: the map alone. */
@@ -14,11 +18,28 @@ const TABS: readonly (readonly [string, IconNode, PanelName | undefined])[] = [
   ['Learn', BookOpen, 'learn'],
   ['Play', Trophy, 'play'],
   ['Story', ScrollText, 'story'],
-  ['More', Ellipsis, 'now'],
+];
+const PANELS: readonly (readonly [string, PanelName])[] = [
+  ['Now', 'now'],
+  ['Compare', 'compare'],
+  ['Recovery', 'recovery'],
+  ['Disturb', 'disturb'],
+  ['Tune', 'tune'],
+  ['Layers', 'layers'],
+  ['Set up', 'setup'],
 ];
 
 export function PhoneTabs(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
+  const more = createPopover('more-panels');
+  const open = (panel: PanelName | undefined): void => {
+    lab.address.show('laboratory');
+    if (panel === undefined || lab.panel() === panel) {
+      if (lab.panel() !== undefined) lab.closePanel();
+    } else lab.showPanel(panel);
+  };
+  const isCurrent = (panel: PanelName | undefined): boolean =>
+    lab.address.view() === 'laboratory' && lab.panel() === panel;
   return (
     <Show when={isPhone()}>
       <nav class="phone-tabs" aria-label="Panels">
@@ -26,11 +47,9 @@ export function PhoneTabs(props: { lab: Lab }): JSX.Element {
           {([title, icon, panel]) => (
             <button
               type="button"
-              aria-current={lab.panel() === panel ? 'true' : undefined}
+              aria-current={isCurrent(panel) ? 'true' : undefined}
               onClick={() => {
-                if (panel === undefined || lab.panel() === panel) {
-                  if (lab.panel() !== undefined) lab.closePanel();
-                } else lab.showPanel(panel);
+                open(panel);
               }}
             >
               <Icon of={icon} />
@@ -38,6 +57,37 @@ export function PhoneTabs(props: { lab: Lab }): JSX.Element {
             </button>
           )}
         </For>
+        <div {...more.box} class="phone-more">
+          <button {...more.button}>
+            <Icon of={Ellipsis} />
+            More
+          </button>
+          <Show when={more.open()}>
+            <div id="more-panels" class="popover" role="group" aria-label="More panels and views">
+              <div class="phone-panels">
+                <For each={PANELS}>
+                  {([title, panel]) => (
+                    <button
+                      type="button"
+                      onClick={() => {
+                        more.close();
+                        open(panel);
+                      }}
+                    >
+                      {title}
+                    </button>
+                  )}
+                </For>
+              </div>
+              <ViewLinks lab={lab} />
+              <div class="phone-foot">
+                <HelpButton />
+                <ThemeButton />
+              </div>
+              <p>Simulation, not safety-rated</p>
+            </div>
+          </Show>
+        </div>
       </nav>
     </Show>
   );

@@ -1,14 +1,16 @@
 // The top bar: which experiment, what happens now, and how it is shown.
 
 import { Show, type JSX } from 'solid-js';
-import { ChevronDown, Layers, Map as MapIcon, PanelRightClose, PanelRightOpen } from 'lucide';
+import { Box, ChevronDown, Layers, Map as MapIcon, PanelRightClose, PanelRightOpen } from 'lucide';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import { VIEWS } from '../lab/address';
 import type { Lab } from '../lab/slices';
+import { loggedOut } from '../net/access';
 import { counted } from '../ui/format';
 import { Icon } from '../ui/Icon';
 import { shownName } from '../ui/name';
 import { Segmented } from '../ui/Segmented';
+import { isPhone } from '../ui/windowSize';
 import { MoreMenu } from './MoreMenu';
 import { StatusPill } from './StatusPill';
 import { VIEW_MODES, type ViewMode } from './viewMode';
@@ -69,19 +71,38 @@ export function TopBar(props: {
       >
         <Experiment lab={lab} />
       </Show>
-      <StatusPill lab={lab} />
+      {/* Elsewhere only what is wrong with the session. */}
+      <Show when={isLaboratory() || lab.connection().kind !== 'live' || lab.ended() || loggedOut()}>
+        <StatusPill lab={lab} />
+      </Show>
       <div class="top-tools">
         <PlaceNotice lab={lab} place="session" />
         <Show when={isLaboratory()}>
-          <Segmented
-            label="View"
-            name="workspace-view"
-            value={lab.sight() === 'all' ? props.mode : 'plan'}
-            segments={VIEW_MODES.map(([value, label]) => ({ value, label }))}
-            // Fog and camera have no 3-D view.
-            disabled={lab.sight() !== 'all'}
-            onChoose={(mode) => props.onMode(mode)}
-          />
+          <Show
+            when={!isPhone()}
+            fallback={
+              <button
+                type="button"
+                class="icon-only"
+                aria-label="3-D"
+                aria-pressed={props.mode === 'scene'}
+                disabled={lab.sight() !== 'all'}
+                onClick={() => props.onMode(props.mode === 'scene' ? 'plan' : 'scene')}
+              >
+                <Icon of={Box} />
+              </button>
+            }
+          >
+            <Segmented
+              label="View"
+              name="workspace-view"
+              value={lab.sight() === 'all' ? props.mode : 'plan'}
+              segments={VIEW_MODES.map(([value, label]) => ({ value, label }))}
+              // Fog and camera have no 3-D view.
+              disabled={lab.sight() !== 'all'}
+              onChoose={(mode) => props.onMode(mode)}
+            />
+          </Show>
           <button
             type="button"
             class="layers-button"

@@ -1,31 +1,45 @@
-// What pointer and keys do on the workspace.
+// What pointer and keys do on the map: in few words for the eyes, whole for screen readers.
 
 import { Show, type JSX } from 'solid-js';
+import { HandGrab, Move3d, Target, type IconNode } from 'lucide';
+import { Icon } from '../ui/Icon';
 import { IS_TOUCH } from '../ui/touch';
 
-const STEER = IS_TOUCH
-  ? 'Press and move the finger: the tool follows.'
-  : 'Press and move the pointer, or hold the arrow keys: the tool follows.';
-const SET_GOAL = IS_TOUCH
-  ? 'Tap to set a goal. Drag the bead to disturb it.'
-  : 'Click to set a goal. Drag the bead to disturb it (Shift: lift over walls).';
-const TURN = IS_TOUCH
-  ? 'Drag elsewhere to turn the view, pinch to zoom.'
-  : 'Drag elsewhere to turn the view, use the wheel to zoom.';
+function Hint(props: { icon: IconNode; children: JSX.Element }): JSX.Element {
+  return (
+    <span class="hint-words">
+      <Icon of={props.icon} />
+      <span>{props.children}</span>
+    </span>
+  );
+}
 
 export function WorkspaceHint(props: { steers: boolean; scene: boolean }): JSX.Element {
   return (
-    <>
-      {props.steers ? STEER : SET_GOAL}
-      <Show when={props.scene && !props.steers}> {TURN}</Show>
-      <Show when={!IS_TOUCH && !props.steers}> Keys: arrows, Enter, D.</Show>
+    <Show
+      when={!props.steers}
+      fallback={
+        <Hint icon={HandGrab}>
+          {IS_TOUCH
+            ? 'Press and move the finger: the tool follows.'
+            : 'Press and move the pointer, or hold the arrow keys: the tool follows.'}
+        </Hint>
+      }
+    >
+      <Hint icon={HandGrab}>Drag the bead to disturb it</Hint>{' '}
+      <Hint icon={Target}>{IS_TOUCH ? 'Tap' : 'Click'} to set the goal</Hint>{' '}
       <Show when={props.scene}>
-        <span class="visually-hidden">
+        <Hint icon={Move3d}>Drag elsewhere to turn the view</Hint>
+      </Show>
+      <span class="visually-hidden">
+        {' '}
+        Shift lifts the bead over walls. Keys: arrows, Enter, D.
+        <Show when={props.scene}>
           {' '}
           Brackets turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home resets
           it. The right mouse button moves it.
-        </span>
-      </Show>
-    </>
+        </Show>
+      </span>
+    </Show>
   );
 }
