@@ -45,7 +45,11 @@ test('fetches the bead after a drag by mouse, and delivers it', async ({ lab }) 
   await lab.page.mouse.up();
   await until('no hand', () => !lab.state.hand_m);
 
-  const shown = async () => (await modes.jsonValue()).join('');
+  const shown = async () => {
+    // A slow page would skip the short time of sub-controller 1.
+    await lab.drawn();
+    return (await modes.jsonValue()).join('');
+  };
   await lab.stepUntil('both switches', async () => (await shown()).includes('212'), 25);
   await lab.deliver();
   await expect(lab.page.getByTestId('disturbances')).toHaveText('1');

@@ -271,8 +271,12 @@ test('a gamepad with an unknown layout rests until its cross was pushed on reque
   const [x, y] = tool(lab);
   await push(6, 1);
   await until('the hand to the right', () => lab.state.steer_m && lab.state.steer_m[0] > x + FAR_M);
-  await push(6, 0);
   await expect(hint).toContainText('up');
+  await push(6, 0);
+  // Released when it has rested for 200 ms: the page must have looked twice.
+  await page.waitForTimeout(200);
+  await lab.drawn();
+  await lab.drawn();
   await push(7, -1);
   await until('the hand up', () => lab.state.steer_m && lab.state.steer_m[1] > y + FAR_M);
   await push(7, 0);

@@ -1,6 +1,7 @@
 // Measures the hand: the time from a movement of the pointer to the picture of the state that follows it.
 
 import { type Page, expect } from '@playwright/test';
+import type { StateMessage } from '../../src/net/protocol.gen';
 import { Lab } from './lab';
 import { tellTick } from './shown';
 import { type Point, distance } from './table';
@@ -139,7 +140,7 @@ async function statesOf(origin: string, names: readonly string[]) {
   return Promise.all(
     names.map(async (name) => ({
       ...((await read(name)) as Summary),
-      ...((await read(`${name}/state`)) as { deliveries: number; phase: string }),
+      ...((await read(`${name}/state`)) as Pick<StateMessage, 'deliveries' | 'phase'>),
     })),
   );
 }
@@ -148,7 +149,10 @@ async function statesOf(origin: string, names: readonly string[]) {
 async function expectAtWork(origin: string, names: readonly string[]) {
   const idle = (await statesOf(origin, names)).filter(
     ({ running, viewers, phase, deliveries }) =>
-      !running || viewers > 0 || deliveries > 0 || !/transporting|approaching/.test(phase),
+      !running ||
+      viewers > 0 ||
+      deliveries > 0 ||
+      !['transporting', 'approaching'].includes(phase.code),
   );
   expect(idle).toEqual([]);
 }

@@ -40,6 +40,12 @@ const kindOf = (event: PointerEvent): 'touch' | 'mouse' =>
 const hasModifier = (event: KeyboardEvent): boolean =>
   event.ctrlKey || event.altKey || event.metaKey;
 
+const isSameMovement = (a: PointerEvent, b: PointerEvent | undefined): boolean =>
+  a.pointerId === b?.pointerId &&
+  a.clientX === b.clientX &&
+  a.clientY === b.clientY &&
+  a.buttons === b.buttons;
+
 /** Listens until `signal` aborts. */
 export function attachInput(
   canvas: HTMLCanvasElement,
@@ -49,6 +55,8 @@ export function attachInput(
   signal: AbortSignal,
 ): void {
   const { step, view, mode, setPointing } = interaction;
+  /** The last movement. */
+  let handled: PointerEvent | undefined;
   const listen = <K extends keyof Events>(
     target: EventTarget,
     types: readonly K[],
@@ -104,12 +112,13 @@ export function attachInput(
     const { act, fingers } = mode();
     const isSteering = act.kind === 'steering';
     if (isOther(event) || (event.type === 'pointerrawupdate' && !isSteering)) return;
+    // The same movement comes twice: at once, and with the next frame. To measure its place again would cost a layout.
+    if (isSteering && isSameMovement(event, handled)) return;
+    handled = event;
     const { pointerId: pointer, shiftKey: lift } = event;
     const px = placeOf(event);
     const before = fingers.find((finger) => finger.pointer === pointer);
     if (before) {
-      // The same movement can come twice: at once, and with the next frame.
-      if (isSteering && distance(before.px, px) === 0) return;
       if (event.buttons === 0) end('capture lost', pointer);
       else step({ type: 'move', pointer, px, at: view()?.toWorld(px), lift });
     }

@@ -75,14 +75,17 @@ describe('a track', () => {
   });
 
   it('counts the plans up to each delivery', () => {
-    const overlay = (plans: number): Frame['overlay'] =>
-      ({ plan: { plans } }) as unknown as Frame['overlay'];
+    const overlay = (plans: number, time_s: number): Frame['overlay'] =>
+      ({ tick: Math.round(time_s / 0.008), plan: { plans } }) as unknown as Frame['overlay'];
     const there = event(10, 'delivered');
+    const back = event(20, 'delivered');
     const track = trackOf([
-      { ...frame(5), overlay: overlay(9) },
-      { ...frame(10, {}, [there]), overlay: overlay(13) },
-      { ...frame(15, {}, [there]), overlay: overlay(14) },
-      { ...frame(20, {}, [there, event(20, 'delivered')]), overlay: overlay(14) },
+      { ...frame(5), overlay: overlay(9, 5) },
+      { ...frame(10, {}, [there]), overlay: overlay(13, 9.9) },
+      { ...frame(15, {}, [there]), overlay: overlay(13, 15) },
+      // A slow page gets the event before the overlay of the same step.
+      { ...frame(20, {}, [there, back]), overlay: overlay(13, 15) },
+      { ...frame(20, {}, [there, back]), overlay: overlay(14, 19.9) },
     ]);
     expect(track.deliveries).toEqual([
       { time_s: 10, plans: 13 },

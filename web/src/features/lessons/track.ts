@@ -1,5 +1,6 @@
 // Measurements of a lesson while its experiment runs: a few numbers from the server's messages. Pure.
 
+import { CONTROL_PERIOD_S } from '../../net/protocol.gen';
 import type {
   EventMessage,
   OverlayMessage,
@@ -80,9 +81,15 @@ function lingering({ anchor, lingered_s }: Track, frame: Frame) {
   return { anchor, lingered_s: Math.max(lingered_s, now.time_s - anchor.time_s) };
 }
 
-/** Deliveries from `marks`. A new one gets the number of plans known when its event arrives. */
-function delivered(track: Track, marks: readonly EventMessage[], plans: number) {
-  const times_s = marks.filter(({ kind }) => kind === 'delivered').map((mark) => mark.sim_time_s);
+/**
+ * Deliveries from `marks`, each with the number of plans by then. One that the overlay has not reached waits: its event
+ * may arrive before the overlay of the same control step.
+ */
+function delivered(track: Track, { scene, overlay, marks }: Frame, plans: number) {
+  const seen_s = ((overlay?.tick ?? Infinity) + 0.5) * scene.tick_s + CONTROL_PERIOD_S;
+  const times_s = marks
+    .filter(({ kind, sim_time_s }) => kind === 'delivered' && sim_time_s <= seen_s)
+    .map((mark) => mark.sim_time_s);
   if (times_s.length === track.deliveries.length) return track.deliveries;
   return times_s.map((time_s, index) => track.deliveries[index] ?? { time_s, plans });
 }
@@ -109,7 +116,7 @@ export function observe(track: Track, frame: Frame): Track {
     lostAt_s: track.lostAt_s ?? lost?.sim_time_s,
     fetchedAt_s: track.fetchedAt_s ?? fetched?.sim_time_s,
     disturbances: Math.max(track.disturbances, state.disturbances),
-    deliveries: delivered(track, marks, plans),
+    deliveries: delivered(track, frame, plans),
     stopped: track.stopped || state.phase.code === 'stopped',
     plans,
     greatestLift: Math.max(track.greatestLift, state.lift_ratio),
