@@ -25,6 +25,7 @@ export class Lab extends LabControls {
     const lab = new Lab(page);
     await page.addInitScript(keepSocket);
     await page.addInitScript(countGpu);
+    await page.addInitScript(() => localStorage.setItem('ferry.visit', 'done'));
     await page.goto(url);
     return lab;
   }

@@ -30,6 +30,7 @@ const canvas = page.getByLabelText('Workspace', { exact: true });
 
 /** The page without tips, with a panel of the inspector. */
 async function open(answers = {}, panel: TabbedPanel = 'tune'): Promise<FakeServer> {
+  localStorage.setItem('ferry.visit', 'done');
   localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
   localStorage.setItem('ferry.panel', panel);
   const server = fakeServer(answers);

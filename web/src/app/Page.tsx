@@ -2,7 +2,7 @@
 
 // Imported first, so that the panels' styles override it.
 import './Page.css';
-import { Match, Switch, createEffect, createSignal, type JSX } from 'solid-js';
+import { Match, Show, Switch, createEffect, createSignal, type JSX } from 'solid-js';
 import { VIEWS } from '../lab/address';
 import { createLab } from '../lab/lab';
 import { followChallengeLink } from '../lab/pageChallenge';
@@ -12,6 +12,8 @@ import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
 import { fillIn } from '../features/evaluate/draft';
 import { Dock } from './Dock';
+import { FirstVisit } from './FirstVisit';
+import { createFirstVisit } from './visit';
 import { Help } from './Help';
 import { Inspector } from './Inspector';
 import { MAP_LAYERS } from './layers';
@@ -46,6 +48,7 @@ export function Page(): JSX.Element {
   const capture = createCapture(lab, picture);
   const opener = createMapOpener(lab);
   const interaction = createInteraction(lab);
+  const first = createFirstVisit(address, window);
   const [mode, chooseMode] = createChoice('view', ['plan', 'scene']);
   createEffect(() => {
     document.title = view() === 'laboratory' ? 'Ferry' : `${VIEWS[view()]} – Ferry`;
@@ -63,7 +66,10 @@ export function Page(): JSX.Element {
   });
   onDrop(/\.json$/i, (file) => openCase(lab, file));
   return (
-    <>
+    <Show
+      when={!first.isOpen()}
+      fallback={<FirstVisit lab={lab} interaction={interaction} onEnd={first.end} />}
+    >
       <Rail lab={lab} />
       <TopBar
         lab={lab}
@@ -125,6 +131,6 @@ export function Page(): JSX.Element {
       </Switch>
       <PhoneTabs lab={lab} />
       <Help lab={lab} />
-    </>
+    </Show>
   );
 }

@@ -21,6 +21,7 @@ const notices = (): string[] =>
 
 /** Uses each control whose command the server answers; returns the server and the number of controls. */
 async function used(): Promise<{ server: FakeServer; controls: number }> {
+  localStorage.setItem('ferry.visit', 'done');
   localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
   const server = fakeServer();
   show(() => <Page />);

@@ -1,0 +1,18 @@
+// Whether this browser opens Ferry for the first time, at its plain address: a link to something else opens that.
+
+import type { Address } from '../lab/address';
+import { createChoice } from '../ui/storage';
+
+export function createFirstVisit(address: Address, page: Window) {
+  const [visit, setVisit] = createChoice('visit', ['first', 'done']);
+  const { search, hash } = page.location;
+  const isPlain = search === '' && hash === '';
+  if (!isPlain) setVisit('done');
+  return {
+    isOpen: (): boolean =>
+      visit() === 'first' && address.view() === 'laboratory' && address.lesson() === undefined,
+    end: (): void => {
+      setVisit('done');
+    },
+  };
+}
