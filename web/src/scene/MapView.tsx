@@ -1,9 +1,10 @@
 // The map: the plan view or the 3-D view, with a flight of the camera between the two.
 
 import { Show, createEffect, createSignal, untrack, type JSX } from 'solid-js';
-import type { TableView } from '../lab/geometry';
 import type { LiveLayer, MapLayer } from '../plan/layer';
 import { PlanView, type SurfaceProps } from '../plan/PlanView';
+import type { Size } from '../ui/size';
+import type { PlanPicture } from './flight';
 import type { InScene } from './sceneLayer';
 import { ScenePanel } from './ScenePanel';
 
@@ -18,16 +19,28 @@ export function MapView(
   },
 ): JSX.Element {
   const [shown, setShown] = createSignal(untrack(() => props.mode));
-  const [plan, setPlan] = createSignal<TableView>();
+  const [plan, setPlan] = createSignal<PlanPicture>();
   createEffect(() => {
     if (props.mode === 'scene') setShown('scene');
   });
+  const [size, setSize] = createSignal<Size>();
   createEffect(() => {
-    const view = props.interaction.view();
-    if (view && untrack(shown) === 'plan') setPlan(() => view);
+    const [view, sizeNow] = [props.interaction.view(), size()];
+    if (view && sizeNow && untrack(shown) === 'plan') setPlan({ ...view, size: sizeNow });
   });
   return (
-    <Show when={shown() === 'scene'} fallback={<PlanView {...props} />}>
+    <Show
+      when={shown() === 'scene'}
+      fallback={
+        <PlanView
+          {...props}
+          onPicture={(picture) => {
+            if (picture) setSize(picture.size);
+            props.onPicture?.(picture);
+          }}
+        />
+      }
+    >
       <ScenePanel
         {...props}
         plan={untrack(plan)}

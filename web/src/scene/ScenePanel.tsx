@@ -11,6 +11,7 @@ import {
   untrack,
   type JSX,
 } from 'solid-js';
+import type { PlanPicture } from './flight';
 import type { ViewpointName } from './viewpoints';
 import type { Colours, SceneView } from './SceneView';
 import type { InScene, LoadedLayer } from './sceneLayer';
@@ -54,7 +55,7 @@ export function ScenePanel(
     /** Shift of the picture to the right, as a share of its width: on the left there is text. */
     shift?: number;
     /** The picture of the plan view, if the user comes from there. */
-    plan?: TableView | undefined;
+    plan?: PlanPicture | undefined;
     /** The camera flies to that picture. */
     isLeaving?: boolean;
     /** Called when it is there. */

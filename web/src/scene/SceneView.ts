@@ -6,6 +6,7 @@ import type { MovedWalls } from '../lab/movedWalls';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { UnderTool } from '../plan/layer';
 import type { FloorPicture } from '../plan/floorPicture';
+import type { PlanPicture } from './flight';
 import { Arm } from './arm';
 import type { Pull } from '../plan/paint';
 import { Bead } from './bead';
@@ -66,7 +67,7 @@ export interface SceneOptions {
   readonly isSlow: boolean;
   readonly wantsLessMotion: () => boolean;
   /** The view starts with the picture of the plan view. */
-  readonly plan: TableView | undefined;
+  readonly plan: PlanPicture | undefined;
 }
 
 export class SceneView {

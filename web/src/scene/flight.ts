@@ -18,13 +18,15 @@ export interface Pose {
   shift: number;
 }
 
+/** What the plan view shows. Its canvas and that of the scene have the same middle. */
+export interface PlanPicture extends TableView {
+  readonly size: Size;
+}
+
 /** The camera from above whose picture of the table is that of the plan view. */
-export function planPose(
-  plan: TableView,
-  { width, height }: Size,
-  tangent: number,
-): Pose | undefined {
-  const middle = plan.toWorld([width / 2, height / 2]);
+export function planPose(plan: PlanPicture, { height }: Size, tangent: number): Pose | undefined {
+  const { size } = plan;
+  const middle = plan.toWorld([size.width / 2, size.height / 2]);
   const [from, to] = [plan.toPx([0, 0]), plan.toPx([1, 0])];
   if (!middle || !from || !to) return undefined;
   const away_m = height / (2 * tangent * distance(from, to));

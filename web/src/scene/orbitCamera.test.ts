@@ -82,9 +82,10 @@ test('a viewpoint follows the size of the picture until the view is moved', () =
   expect(view.changes()).toBeGreaterThan(3);
 });
 
-const PLAN = tableViewOf(
-  fitView(WORKSPACE, WIDTH, HEIGHT, { left: 46, right: 12, top: 12, bottom: 24 }),
-);
+const PLAN = {
+  ...tableViewOf(fitView(WORKSPACE, WIDTH, HEIGHT, { left: 46, right: 12, top: 12, bottom: 24 })),
+  size: { width: WIDTH, height: HEIGHT },
+};
 const CORNERS: readonly Vec2[] = [
   [-0.3, -0.54],
   [0.28, -0.21],

@@ -6,7 +6,7 @@ import type { Rect } from '../net/protocol.gen';
 import type { Effect } from '../plan/gesture';
 import type { Motion } from '../plan/interaction';
 import type { Size } from '../ui/size';
-import { Flight, planPose, type Pose } from './flight';
+import { Flight, planPose, type Pose, type PlanPicture } from './flight';
 import {
   hidingAt,
   type Seat,
@@ -69,7 +69,7 @@ export class OrbitCamera implements Motion {
     /** Flights are jumps. */
     private readonly jumps: () => boolean = () => true,
     /** The camera starts there. */
-    private plan?: TableView,
+    private plan?: PlanPicture,
   ) {
     this.camera.up.set(0, 0, 1);
   }
@@ -124,7 +124,7 @@ export class OrbitCamera implements Motion {
   }
 
   /** Flies to the picture of the plan view. */
-  leave(plan: TableView, land: () => void): void {
+  leave(plan: PlanPicture, land: () => void): void {
     const to = planPose(plan, this.size, TANGENT);
     this.viewpoint = undefined;
     this.land = land;
