@@ -58,7 +58,7 @@ export class Lab extends LabControls {
 
   /** Waits until the page shows the state of a tick. */
   async isAtTick(tick: number) {
-    await expect(this.page.getByTestId('sim-time')).toHaveAttribute('title', `tick ${tick}`);
+    await expect(this.page.getByTestId('sim-time')).toHaveAttribute('title', `Tick ${tick}`);
   }
 
   /** Where the goal of the shown state is, in metres. */

@@ -65,8 +65,11 @@ export function Dock(props: { lab: Lab }): JSX.Element {
   const tick = (): string => `Tick ${lab.state()?.tick ?? 0}`;
   return (
     <footer class="dock" role="region" aria-label="Playback">
-      <PlaceNotice lab={lab} place="workspace" />
-      <PlaceNotice lab={lab} place="playback" />
+      <div class="dock-notices">
+        <PlaceNotice lab={lab} place="workspace" />
+        <PlaceNotice lab={lab} place="playback" />
+        <PlaceNotice lab={lab} place="controller" />
+      </div>
       <div class="times">
         <Show when={hasLanes()}>
           <div class="lanes">

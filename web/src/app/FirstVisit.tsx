@@ -62,7 +62,7 @@ export function FirstVisit(props: {
             <span
               class="tag"
               aria-hidden="true"
-              style={{ left: `${px()?.[0] ?? 0}px`, top: `${px()?.[1] ?? 0}px` }}
+              style={{ left: `${px()[0]}px`, top: `${px()[1]}px` }}
             >
               Drag me
             </span>

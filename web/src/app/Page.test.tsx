@@ -53,6 +53,7 @@ function drop(name: string, text: string): void {
 
 it('opens as the operator, and every control has a name', async () => {
   await open();
+  await expect.element(button('Restore defaults')).toBeVisible();
   await expect.element(connection).toHaveAttribute('data-role', 'operator');
   await expect.element(button('Run')).toBeEnabled();
   await expect.element(page.getByText('Simulation, not safety-rated')).toBeVisible();
@@ -74,7 +75,9 @@ it("disables the operator's controls for a viewer", async () => {
   }
   server.hello({ role: 'viewer' });
   for (const name of OPERATOR_BUTTONS) await expect.element(button(name)).toBeDisabled();
-  const fields = [...document.querySelectorAll('.parameters input, .parameters select')];
+  const fields = [
+    ...document.querySelectorAll('.parameters :is(input:not([name=magnet-side]), select)'),
+  ];
   expect(fields.length).toBeGreaterThan(10);
   expect(fields.filter((field) => !field.matches(':disabled'))).toEqual([]);
   await canvas.click();
@@ -244,6 +247,7 @@ it('keeps the scale of the map, whatever is open', async () => {
       button('Hide the panel'),
       button('Plots'),
       button('Show the panel'),
+      button('Layers'),
       button('Layers'),
       page.getByRole('tab', { name: 'Test' }),
     ]) {

@@ -62,6 +62,7 @@ export function Page(): JSX.Element {
     });
   };
   onDrop(/\.svg$/i, async (file) => {
+    lab.showPanel('setup');
     await opener.open(file);
   });
   onDrop(/\.json$/i, (file) => openCase(lab, file));
@@ -71,6 +72,10 @@ export function Page(): JSX.Element {
       fallback={<FirstVisit lab={lab} interaction={interaction} onEnd={first.end} />}
     >
       <Rail lab={lab} />
+      {/* Before the other parts, so that Run is among the first stops of the Tab key. */}
+      <Show when={view() === 'laboratory'}>
+        <Dock lab={lab} />
+      </Show>
       <TopBar
         lab={lab}
         mode={mode()}
@@ -84,8 +89,6 @@ export function Page(): JSX.Element {
       <LiveRegion lab={lab} />
       <Switch>
         <Match when={view() === 'laboratory'}>
-          {/* Before the panels, so that Run is among the first stops of the Tab key. */}
-          <Dock lab={lab} />
           <Stage
             lab={lab}
             interaction={interaction}

@@ -63,6 +63,8 @@ export function TopBar(props: {
 }): JSX.Element {
   const { lab } = props;
   const isLaboratory = (): boolean => lab.address.view() === 'laboratory';
+  const isTrouble = (): boolean =>
+    loggedOut() || lab.ended() !== undefined || lab.connection().kind !== 'live';
   return (
     <section class="top" aria-label="Experiment">
       <Show
@@ -72,7 +74,7 @@ export function TopBar(props: {
         <Experiment lab={lab} />
       </Show>
       {/* Elsewhere only what is wrong with the session. */}
-      <Show when={isLaboratory() || lab.connection().kind !== 'live' || lab.ended() || loggedOut()}>
+      <Show when={isLaboratory() || isTrouble()}>
         <StatusPill lab={lab} />
       </Show>
       <div class="top-tools">

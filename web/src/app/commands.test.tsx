@@ -30,7 +30,6 @@ async function used(): Promise<{ server: FakeServer; controls: number }> {
   server.state({ controller: 'rl', goal_m: [0.1, -0.3, 0] });
   await expect.element(rl).toBeChecked();
   await page.getByTitle('Set up: map, preset, seed').click();
-  await page.getByTitle('Set up: map, preset, seed').click();
   await button('Run').click();
   await button('Step').click();
   await button('Reset').click();

@@ -2,7 +2,6 @@
 
 import { Show, createMemo, type JSX } from 'solid-js';
 import { CONTROLLER_HELP, CONTROLLER_LABELS } from '../../lab/parameters';
-import { PlaceNotice } from '../../lab/PlaceNotice';
 import { createPrograms } from '../../lab/programs';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { ControllerName } from '../../net/protocol.gen';
@@ -70,7 +69,6 @@ export function SteeredBy(props: { lab: Session & Trial & Notices }): JSX.Elemen
           }}
         />
       </Show>
-      <PlaceNotice lab={lab} place="controller" />
     </div>
   );
 }

@@ -26,6 +26,7 @@ export function Transport(props: { lab: Session & Trial & Notices }): JSX.Elemen
         lab={lab}
         at="playback"
         class="primary run"
+        aria-label={running() ? 'Pause' : 'Run'}
         title="Space"
         command={() => runOrPause(lab)}
         onDone={() => {
