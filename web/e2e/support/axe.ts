@@ -29,6 +29,11 @@ export async function violations(
   // The content security policy forbids a script element. The debugger may evaluate the source.
   if (!(await page.evaluate('typeof axe === "object"'))) await page.evaluate(source);
   const found = await part.evaluate(async (root, runOnly: readonly string[] | undefined) => {
+    // While a colour changes, it has the contrast of neither theme. A transition that is replaced rejects.
+    const finite = document
+      .getAnimations()
+      .filter(({ effect }) => effect?.getComputedTiming().endTime !== Infinity);
+    await Promise.allSettled(finite.map(({ finished }) => finished));
     const { violations: all } = await window.axe.run(root, {
       resultTypes: ['violations'],
       iframes: false,
