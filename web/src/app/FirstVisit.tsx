@@ -5,11 +5,10 @@ import { ArrowRight, BookOpen, HandGrab, type IconNode, Trophy } from 'lucide';
 import type { PanelName } from '../lab/panels';
 import type { Lab } from '../lab/slices';
 import type { Interaction } from '../plan/interaction';
-import { createLayers } from '../plan/layer';
+import type { LiveLayer } from '../plan/layer';
 import { firstView } from '../scene/graphics';
 import { MapView } from '../scene/MapView';
 import { Icon } from '../ui/Icon';
-import { MAP_LAYERS } from './layers';
 import { Logo } from './Logo';
 import './FirstVisit.css';
 
@@ -20,11 +19,11 @@ const SHIFT = 0.15;
 export function FirstVisit(props: {
   lab: Lab;
   interaction: Interaction;
+  layers: readonly LiveLayer[];
   onEnd: () => void;
 }): JSX.Element {
   const { lab, interaction } = props;
   const view = firstView();
-  const layers = createLayers(MAP_LAYERS, lab);
   const bead = () => {
     const [now, at] = [interaction.view(), lab.state()?.bead_m];
     return now && at && now.toPx([at[0], at[1]]);
@@ -51,7 +50,7 @@ export function FirstVisit(props: {
         <MapView
           lab={lab}
           interaction={interaction}
-          layers={layers}
+          layers={props.layers}
           helpId={HELP_ID}
           mode={view}
           shift={SHIFT}

@@ -23,6 +23,7 @@ import { Stage } from './Stage';
 import { TopBar } from './TopBar';
 import { FailureCard } from '../features/failure/FailureCard';
 import { createInteraction } from '../plan/interaction';
+import { createLayers } from '../plan/layer';
 import { createChoice } from '../ui/storage';
 import { LiveRegion } from './LiveRegion';
 import { createMapOpener } from '../features/maps/opener';
@@ -48,6 +49,7 @@ export function Page(): JSX.Element {
   const capture = createCapture(lab, picture);
   const opener = createMapOpener(lab);
   const interaction = createInteraction(lab);
+  const layers = createLayers(MAP_LAYERS, lab);
   const first = createFirstVisit(address, window);
   const [mode, chooseMode] = createChoice('view', ['plan', 'scene']);
   createEffect(() => {
@@ -69,7 +71,7 @@ export function Page(): JSX.Element {
   return (
     <Show
       when={!first.isOpen()}
-      fallback={<FirstVisit lab={lab} interaction={interaction} onEnd={first.end} />}
+      fallback={<FirstVisit lab={lab} interaction={interaction} layers={layers} onEnd={first.end} />}
     >
       <Rail lab={lab} />
       {/* Before the other parts, so that Run is among the first stops of the Tab key. */}
@@ -92,6 +94,7 @@ export function Page(): JSX.Element {
           <Stage
             lab={lab}
             interaction={interaction}
+            layers={layers}
             mode={mode()}
             onMode={chooseMode}
             onPicture={setPicture}
@@ -103,6 +106,7 @@ export function Page(): JSX.Element {
             lab={lab}
             parts={{
               picker: interaction.picker,
+              layers,
               links,
               opener,
               onTrain: () => {

@@ -8,7 +8,7 @@ import { TipBar } from '../features/tips/TipBar';
 import { CommandButton } from '../lab/CommandButton';
 import { insidePolygon } from '../lab/geometry';
 import type { Lab } from '../lab/slices';
-import { createLayers } from '../plan/layer';
+import type { LiveLayer } from '../plan/layer';
 import type { Interaction } from '../plan/interaction';
 import type { ViewPicture } from '../plan/viewPicture';
 import { MapView } from '../scene/MapView';
@@ -17,7 +17,6 @@ import { Icon } from '../ui/Icon';
 import { ScaleBar } from '../ui/ScaleBar';
 import { endWords } from '../words/facts';
 import { Counters } from './Counters';
-import { MAP_LAYERS } from './layers';
 import { WorkspaceHint } from './WorkspaceHint';
 import type { ViewMode } from './viewMode';
 import './Stage.css';
@@ -27,6 +26,7 @@ const HELP_ID = 'workspace-help';
 export function Stage(props: {
   lab: Lab;
   interaction: Interaction;
+  layers: readonly LiveLayer[];
   mode: ViewMode;
   onMode: (mode: ViewMode) => void;
   onPicture: (picture: ViewPicture | undefined) => void;
@@ -37,7 +37,6 @@ export function Stage(props: {
 }): JSX.Element {
   const { lab, interaction } = props;
   let stage!: HTMLElement;
-  const layers = createLayers(MAP_LAYERS, lab);
 
   const readout = createMemo(() => {
     const scene = lab.scene();
@@ -65,7 +64,7 @@ export function Stage(props: {
   const surfaceProps = {
     lab,
     interaction,
-    layers,
+    layers: props.layers,
     helpId: HELP_ID,
     onPicture: (picture: ViewPicture | undefined) => {
       props.onPicture(picture);

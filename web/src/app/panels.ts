@@ -8,6 +8,7 @@ import type { PanelName } from '../lab/panels';
 import { lazyPanel } from '../lab/panel';
 import type { Lab } from '../lab/slices';
 import type { Picker } from '../plan/interaction';
+import type { LiveLayer } from '../plan/layer';
 import { LayersPanel } from './LayersPanel';
 import { NowPanel } from './NowPanel';
 import { SetUpPanel } from './SetUpPanel';
@@ -15,6 +16,7 @@ import { SetUpPanel } from './SetUpPanel';
 /** What panels get beside the laboratory. */
 export interface PageParts {
   readonly picker: Picker;
+  readonly layers: readonly LiveLayer[];
   readonly links: PageExperiment;
   readonly opener: MapOpener;
   /** Opens the view Train with the map of the trial. */
