@@ -140,7 +140,7 @@ export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[
     const { width_mm: usual_mm, height_mm: high_mm } = BLANK.frame;
     return BORDER_MM * Math.max(width_mm / usual_mm, height_mm / high_mm);
   });
-  const rectangle = (more_mm = 0) => {
+  const rectangle = (more_mm: number) => {
     const { x_mm, y_mm, width_mm, height_mm } = frame();
     return {
       x: x_mm - more_mm,
@@ -155,7 +155,7 @@ export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[
   };
   /** Between the frame and the edge, over the ends of the rims. */
   const border = (): string =>
-    [rectangle(border_mm()), rectangle()]
+    [rectangle(border_mm()), rectangle(0)]
       .map(({ x, y, width, height }) => `M${x} ${y}h${width}v${height}h${-width}z`)
       .join('');
   const isErasing = (): boolean => editor.editing().tool === 'erase';
@@ -188,7 +188,7 @@ export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[
       {...createPointer(editor)}
       onKeyDown={(event) => onKey(editor, event)}
     >
-      <rect class="draw-floor" {...rectangle()} />
+      <rect class="draw-floor" {...rectangle(0)} />
       <Grid frame={frame()} />
       <For each={shapes()}>
         {(shape, index) => (
