@@ -77,7 +77,7 @@ test('opens a saved test case and repeats its inputs', async ({ lab }) => {
     await until('its start', () => lab.state.tick === 0 && lab.state.controller === 'attractor');
     expect(distance(await lab.bead(), kept.start)).toBeLessThan(1e-9);
     expect(lab.state.goal_m).toEqual(kept.goal);
-    const bar = lab.page.locator('.case-bar');
+    const bar = lab.page.locator('.case-words');
     await expect(bar).toContainText('Test case: attractor on posts, with disturbances by hand.');
     await expect(bar).toContainText(`${kept.inputs} inputs, the last one at 0.5 s.`);
     await expect(bar).toContainText(/Expected: 1 delivered by 1:01\.\d \(open\)\./);

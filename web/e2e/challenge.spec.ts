@@ -63,10 +63,7 @@ test('a challenge from a link is played, explained and put on the board', async 
   const lab = await openLab({ url: `${session.url}?challenge=${NAME}` });
   const { page } = lab;
   await until('the challenge', () => lab.scene.challenge === NAME);
-  await expect(page.getByRole('tab', { name: 'Challenge' })).toHaveAttribute(
-    'aria-selected',
-    'true',
-  );
+  await expect(lab.tab('Play')).toHaveAttribute('aria-selected', 'true');
   const way = await errtWay(lab);
   await play(lab, way, 2 * SECOND_TICKS);
   expect(lab.state.running, 'the session pauses').toBe(false);

@@ -1,5 +1,6 @@
 // Details that visitors stumbled over.
 
+import type { Locator } from '@playwright/test';
 import { Lab, expect, test } from './fixtures';
 import { SECOND_TICKS } from './support/stepper';
 import { must, until } from './support/wait';
@@ -36,6 +37,7 @@ test('draws the whole course long after the delivery', async ({ lab }) => {
 
 test('the story of an event does not cover the bead', async ({ lab }) => {
   await deliver(lab);
+  await lab.panel('Story');
   await eventsOf(lab).last().click();
   const card = must(await lab.page.getByRole('dialog').boundingBox(), 'the card');
   for (const point of [await lab.bead(), must(await lab.goal(), 'the goal')]) {
@@ -49,9 +51,18 @@ test('with forced colours, selected tabs, sliders and the timeline are visible',
   lab,
 }) => {
   await lab.page.emulateMedia({ forcedColors: 'active' });
-  const borderOf = (name: string) =>
-    lab.tab(name).evaluate((tab) => getComputedStyle(tab).borderBottomColor);
-  expect(await borderOf('Events')).not.toBe(await borderOf('Lessons'));
+  const lineOf = (name: string) =>
+    lab.tab(name).evaluate((tab) => getComputedStyle(tab, '::after').borderBottom);
+  expect(await lineOf('Now')).toMatch(/^2px solid/);
+  expect(await lineOf('Learn')).not.toMatch(/^2px solid/);
+  const borderOf = (one: Locator) => one.evaluate((node) => getComputedStyle(node).borderColor);
+  const segment = (name: string) => lab.page.locator('.segmented label', { has: lab.radio(name) });
+  for (const [chosen, other] of [
+    [lab.view('Lab'), lab.view('Draw')],
+    [segment('Attractor'), segment('RL')],
+  ] as const) {
+    expect(await borderOf(chosen)).not.toBe(await borderOf(other));
+  }
   const pageColor = await lab.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   for (const slider of [lab.page.getByRole('slider').first(), lab.label('Timeline')]) {
     const picture = await slider.screenshot();
