@@ -3,6 +3,7 @@
 import { type Lab, expect, test } from './fixtures';
 import { CONTROL_STEP_TICKS } from './support/stepper';
 import type { PointLike } from './support/table';
+import { openLayers, showPanel, showTabs } from './support/preconditions';
 import { must, until } from './support/wait';
 
 /** The server sweeps a map before it first sends values. */
@@ -33,6 +34,7 @@ test('shows the value map of a policy', async ({ lab }) => {
   await lab.map('u-turn');
   await lab.controller('RL');
   const choose = async (label: string, policy: string) => {
+    await showPanel('Tune')(lab);
     await lab.label('Policy').selectOption(label);
     await until(label, () => lab.scene.parameters.rl_policy === policy);
   };
@@ -42,9 +44,9 @@ test('shows the value map of a policy', async ({ lab }) => {
     if (request.url().endsWith('/values')) requests += 1;
   });
 
-  // The legend has its full height already, so the map does not move under the points later.
   const legend = page.getByRole('group', { name: 'Values' });
   await lab.layer('Value');
+  await openLayers(lab);
   await expect(legend).toContainText(WITHOUT_GOAL);
   const bead = await lab.bead();
   const goal = must(lab.freePoints(bead, 0.06, 0.2).at(-1), 'a goal');
@@ -58,6 +60,7 @@ test('shows the value map of a policy', async ({ lab }) => {
   expect(await lab.number('value-least')).toBeLessThan(await lab.number('value-greatest'));
   await until('the layer Value', async () => (await lab.pixelsAround(...places)) !== bare);
 
+  await showTabs(lab);
   await lab.tune('Threshold T', '8');
   await lab.label('Shield').uncheck();
   await until('no shield', () => !lab.scene.parameters.rl_shield);
@@ -66,7 +69,8 @@ test('shows the value map of a policy', async ({ lab }) => {
   await until('values by that policy', () => requests === 2);
   await lab.restoreDefaults();
   expect(lab.scene.parameters.rl_shield && lab.scene.parameters.rl_policy).toBe('auto');
-  await lab.layer('Value', false);
+  await openLayers(lab);
+  await page.getByRole('group', { name: 'Layers' }).getByLabel('Value', { exact: true }).uncheck();
   await expect(legend).toHaveCount(0);
 });
 
@@ -145,14 +149,16 @@ test('carries the bead along a planned path', async ({ lab }) => {
   await expect(lab.page.getByTestId('plan-plans')).toHaveCount(0);
 });
 
-test('shows the attractor flow, and closes the menu without setting a goal', async ({ lab }) => {
+test('shows the attractor flow, and closes a menu without setting a goal', async ({ lab }) => {
   const legend = lab.page.getByRole('group', { name: 'Arrows and dots' });
   await lab.layer('Attractor flow');
+  await openLayers(lab);
   await expect(legend).toContainText(WITHOUT_GOAL);
   const goal = lab.freePoints(await lab.bead(), 0.3, 0.5)[0];
   await lab.setGoal(goal);
   await expect(lab.page.getByTestId('flow-traps')).toHaveText(/\d|none/);
   await expect(legend).toContainText(/direction of the attractor flow/i);
+  await lab.button('Layers').click();
 
   // Points of the grid. An arrow crosses each of them that is not over a wall.
   const { x_min_m, x_max_m, y_min_m, y_max_m } = lab.scene.workspace;
@@ -168,9 +174,9 @@ test('shows the attractor flow, and closes the menu without setting a goal', asy
     ]),
   );
 
-  // A click beside the menu only closes it.
-  await lab.button('Layers').click();
-  const menu = lab.page.getByRole('group', { name: 'Layers' });
+  // A click beside a menu only closes it.
+  await lab.button('More').click();
+  const menu = lab.page.getByRole('link', { name: 'Present' });
   await menu.waitFor();
   lab.sent = {};
   // On the left, which the menu does not cover.
