@@ -2,6 +2,7 @@
 
 import { Show, type JSX } from 'solid-js';
 import { Activity, HandGrab, Radio } from 'lucide';
+import { StageBar } from '../features/challenge/StageBar';
 import { SteeredBy } from '../features/controller/SteeredBy';
 import { Timeline } from '../features/playback/Timeline';
 import { Transport } from '../features/playback/Transport';
@@ -13,6 +14,7 @@ import type { Lab } from '../lab/slices';
 import { createTimeAxis, type TimeAxis } from '../lab/timeAxis';
 import { clock } from '../ui/format';
 import { Icon } from '../ui/Icon';
+import { isPhone } from '../ui/windowSize';
 import './Dock.css';
 
 const PlotLanes = lazyPanel(() => import('../features/plots/PlotLanes'));
@@ -87,7 +89,9 @@ export function Dock(props: { lab: Lab }): JSX.Element {
       </div>
       <div class="transport">
         <Transport lab={lab} />
-        <SteeredBy lab={lab} />
+        <Show when={isPhone() && lab.contest.attempt()} fallback={<SteeredBy lab={lab} />}>
+          <StageBar lab={lab} />
+        </Show>
         <div class="dock-tools">
           <button
             type="button"

@@ -71,7 +71,9 @@ export function Page(): JSX.Element {
   return (
     <Show
       when={!first.isOpen()}
-      fallback={<FirstVisit lab={lab} interaction={interaction} layers={layers} onEnd={first.end} />}
+      fallback={
+        <FirstVisit lab={lab} interaction={interaction} layers={layers} onEnd={first.end} />
+      }
     >
       <Rail lab={lab} />
       {/* Before the other parts, so that Run is among the first stops of the Tab key. */}

@@ -1,6 +1,6 @@
 // The stage: the map or the 3-D view, with a band above and below it. A click sets the goal; dragging the bead disturbs it.
 
-import { Match, Show, Switch, createMemo, type JSX } from 'solid-js';
+import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-js';
 import { CircleQuestionMark } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
 import { CameraView } from '../features/steer/CameraView';
@@ -13,6 +13,7 @@ import type { Interaction } from '../plan/interaction';
 import type { ViewPicture } from '../plan/viewPicture';
 import { MapView } from '../scene/MapView';
 import { fixed } from '../ui/format';
+import { isPhone, isUpright } from '../ui/windowSize';
 import { Icon } from '../ui/Icon';
 import { ScaleBar } from '../ui/ScaleBar';
 import { endWords } from '../words/facts';
@@ -61,6 +62,17 @@ export function Stage(props: {
   };
   // The 3-D view has no fog.
   const isScene = (): boolean => lab.sight() === 'all' && props.mode === 'scene';
+  /** On a phone a panel hides the lower half of the map. */
+  const isLifted = createMemo(() => {
+    const [map, bead_m] = [interaction.view(), lab.state()?.bead_m];
+    if (!isPhone() || lab.panel() === undefined || isScene() || !map || !bead_m) return false;
+    const at = map.toPx([bead_m[0], bead_m[1]])?.[isUpright() ? 0 : 1];
+    return at !== undefined && at > 0.4 * stage.clientHeight;
+  });
+  createEffect(() => {
+    if (isPhone() && interaction.act().kind === 'held' && lab.panel() !== undefined)
+      lab.closePanel();
+  });
   const surfaceProps = {
     lab,
     interaction,
@@ -73,13 +85,14 @@ export function Stage(props: {
 
   return (
     <main ref={stage} class="stage" data-mode={isScene() ? 'scene' : 'plan'}>
-      <div class="map-box">
+      <div class="map-box" classList={{ lifted: isLifted() }}>
         <Show
           when={lab.sight() === 'camera'}
           fallback={
             <MapView
               {...surfaceProps}
               mode={isScene() ? 'scene' : 'plan'}
+              isTurned={isUpright()}
               onPlan={() => {
                 props.onMode('plan');
               }}
@@ -92,7 +105,7 @@ export function Stage(props: {
       </div>
       <div class="band over">
         {props.notice}
-        <Show when={lab.contest.attempt()} fallback={<Counters lab={lab} />}>
+        <Show when={!isPhone() && lab.contest.attempt()} fallback={<Counters lab={lab} />}>
           <StageBar
             lab={lab}
             onStart={() => {

@@ -33,6 +33,8 @@ export interface SurfaceProps {
   readonly helpId: string;
   /** The whole workspace is shown again when this changes. */
   readonly whole?: Accessor<number>;
+  /** Shows the map turned by 90°, clockwise. */
+  readonly isTurned?: boolean;
   /** Called with the view when it can be drawn, and with nothing when it closes. */
   readonly onPicture?: (picture: ViewPicture | undefined) => void;
 }
@@ -60,7 +62,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   });
   const view = createMemo<View | undefined>(() => {
     const now = frame();
-    return now && zoomedView(now, zoom());
+    return now && { ...zoomedView(now, zoom()), ...(props.isTurned && { isTurned: true }) };
   });
   const trayRect = createMemo((): Record<string, string> | undefined => {
     const [now, workspace] = [view(), lab.scene()?.workspace];
@@ -122,29 +124,37 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   // The geometry on the screen, for tests and other tools that read the page.
   createEffect(() => {
     const onto = canvas();
-    if (onto) Object.assign(onto.dataset, view());
+    if (!onto) return;
+    delete onto.dataset.isTurned;
+    Object.assign(onto.dataset, view());
   });
 
   return (
     <>
-      <Show when={zoom() === WHOLE && trayRect()}>
-        {(rect) => <div class="tray" style={rect()} aria-hidden="true" />}
-      </Show>
-      <ViewCanvas
-        lab={lab}
-        interaction={interaction}
-        label="Workspace"
-        class="plan-canvas"
-        helpId={props.helpId}
-        surface={zooming(canvas, frame, zoom, setZoom)}
-        onCanvas={(onto) => {
-          setCanvas(onto);
-          yieldToPage(onto);
-        }}
-        onSize={setSize}
-        draw={draw}
-        onPicture={props.onPicture}
-      />
+      <div class="plan" classList={{ turned: props.isTurned ?? false }}>
+        <Show when={zoom() === WHOLE && trayRect()}>
+          {(rect) => <div class="tray" style={rect()} aria-hidden="true" />}
+        </Show>
+        <ViewCanvas
+          lab={lab}
+          interaction={interaction}
+          label="Workspace"
+          class="plan-canvas"
+          helpId={props.helpId}
+          surface={{
+            ...zooming(canvas, frame, zoom, setZoom),
+            turned: ([x, y]) => (props.isTurned ? [-y, x] : [x, y]),
+            isTurned: () => props.isTurned ?? false,
+          }}
+          onCanvas={(onto) => {
+            setCanvas(onto);
+            yieldToPage(onto);
+          }}
+          onSize={setSize}
+          draw={draw}
+          onPicture={props.onPicture}
+        />
+      </div>
       <Show when={zoom() !== WHOLE}>
         <button
           type="button"

@@ -1,7 +1,7 @@
 // Draws the hand: the arrow from the bead to the pointer, and the keyboard's cursor.
 
 import { pxFromWorld, type View } from './transform';
-import { drawText, LABEL_FONT, strokeCased } from './marks';
+import { Labels, strokeCased } from './marks';
 import { cross } from './shapes';
 import { distance, type Vec2 } from '../lab/geometry';
 import type { Ctx } from './sheet';
@@ -11,27 +11,11 @@ const DASH = [7, 5];
 const HEAD_PX = 10;
 const LABEL_OFFSET_PX = 16;
 
-function drawLabel(ctx: Ctx, text: string, at: Vec2, widthPx: number, palette: Palette): void {
-  ctx.font = LABEL_FONT;
-  const right = at[0] + LABEL_OFFSET_PX;
-  // To the left of the pointer if there is no space on the right.
-  const isLeft = right + ctx.measureText(text).width > widthPx;
-  const x = isLeft ? at[0] - LABEL_OFFSET_PX : right;
-  drawText(
-    ctx,
-    palette,
-    text,
-    [x, Math.max(12, at[1] - LABEL_OFFSET_PX)],
-    isLeft ? 'right' : 'left',
-  );
-}
-
 /** How the hand pulls the bead. */
 export function drawPull(
   ctx: Ctx,
   view: View,
   palette: Palette,
-  widthPx: number,
   bead_m: Vec2,
   { hand_m, words }: { readonly hand_m: Vec2; readonly words: string },
 ): void {
@@ -58,7 +42,7 @@ export function drawPull(
     ctx.fillStyle = colour;
     ctx.fill();
   }
-  drawLabel(ctx, words, hand, widthPx, palette);
+  new Labels(view.isTurned).draw(ctx, palette, words, hand, LABEL_OFFSET_PX);
 }
 
 export function drawCursor(ctx: Ctx, view: View, palette: Palette, cursor: Vec2): void {

@@ -71,6 +71,7 @@ export function attachInput(
   };
   const placeOf = (event: MouseEvent): Vec2 => {
     const box = canvas.getBoundingClientRect();
+    if (surface.isTurned?.()) return [event.clientY - box.top, box.right - event.clientX];
     return [event.clientX - box.left, event.clientY - box.top];
   };
   const point = (event: PointerEvent, px: Vec2): void => {

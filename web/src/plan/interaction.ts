@@ -38,6 +38,8 @@ export interface Surface {
   readonly key: (key: string) => boolean;
   /** Direction on the table of an arrow on the screen. */
   readonly turned: (arrow: Vec2) => Vec2;
+  /** Whether the page shows the canvas turned by 90°, clockwise. */
+  readonly isTurned?: () => boolean;
 }
 
 /** Picks a place for a form: the next click on the workspace, or Enter at its cursor. */

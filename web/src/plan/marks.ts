@@ -68,19 +68,21 @@ export function drawText(
   ctx: Ctx,
   palette: Palette,
   text: string,
-  [x, y]: Vec2,
-  align: CanvasTextAlign = 'left',
+  at: Vec2,
+  { align, isTurned }: { align: CanvasTextAlign; isTurned: boolean | undefined },
 ): void {
   ctx.save();
+  ctx.translate(...at);
+  if (isTurned) ctx.rotate(-Math.PI / 2);
   ctx.font = LABEL_FONT;
   ctx.textAlign = align;
   ctx.textBaseline = 'middle';
   ctx.lineJoin = 'round';
   ctx.strokeStyle = palette.case;
   ctx.lineWidth = LABEL_CASE_PX;
-  ctx.strokeText(text, x, y);
+  ctx.strokeText(text, 0, 0);
   ctx.fillStyle = palette['m-ink'];
-  ctx.fillText(text, x, y);
+  ctx.fillText(text, 0, 0);
   ctx.restore();
 }
 
@@ -93,6 +95,8 @@ const areApart = (a: Box, b: Box): boolean =>
 export class Labels {
   private readonly taken: Box[] = [];
 
+  constructor(private readonly isTurned = false) {}
+
   /** Keeps a mark free. */
   keep([x, y]: Vec2, radius_px: number): void {
     this.taken.push([x - radius_px, y - radius_px, x + radius_px, y + radius_px]);
@@ -101,31 +105,32 @@ export class Labels {
   /** To the right of a place, otherwise above, below or to the left. */
   draw(ctx: Ctx, palette: Palette, text: string, [x, y]: Vec2, away_px: number): void {
     ctx.font = LABEL_FONT;
-    const width = ctx.measureText(text).width;
-    const half = LABEL_HEIGHT_PX / 2;
-    const boxAt = (middleX: number, middleY: number): Box => [
-      middleX - width / 2,
-      middleY - half,
-      middleX + width / 2,
-      middleY + half,
-    ];
-    const aside = away_px + width / 2;
-    const over = away_px + half;
+    const [halfWide, halfHigh] = [ctx.measureText(text).width / 2, LABEL_HEIGHT_PX / 2];
+    const { isTurned } = this;
+    const [halfX, halfY] = isTurned ? [halfHigh, halfWide] : [halfWide, halfHigh];
+    /** Around a middle to the right of the place and below it, as the page shows them. */
+    const boxAt = (right: number, below: number): Box => {
+      const [middleX, middleY] = isTurned ? [x + below, y - right] : [x + right, y + below];
+      return [middleX - halfX, middleY - halfY, middleX + halfX, middleY + halfY];
+    };
+    const aside = away_px + halfWide;
+    const over = away_px + halfHigh;
     const boxes = [
-      boxAt(x + aside, y),
-      boxAt(x, y - over),
-      boxAt(x, y + over),
-      boxAt(x - aside, y),
-      ...[1, 2, 3].map((line) => boxAt(x, y + over + line * LABEL_HEIGHT_PX)),
+      boxAt(aside, 0),
+      boxAt(0, -over),
+      boxAt(0, over),
+      boxAt(-aside, 0),
+      ...[1, 2, 3].map((line) => boxAt(0, over + line * LABEL_HEIGHT_PX)),
     ];
-    const edge = ctx.canvas.width / ctx.getTransform().a;
+    const { a: ratio } = ctx.getTransform();
     const isFree = (box: Box): boolean =>
-      box[0] > 2 &&
-      box[2] < edge - 2 &&
-      box[1] > 2 &&
+      Math.min(box[0], box[1]) > 2 &&
+      box[2] < ctx.canvas.width / ratio - 2 &&
+      box[3] < ctx.canvas.height / ratio - 2 &&
       this.taken.every((one) => areApart(one, box));
-    const box = boxes.find(isFree) ?? boxAt(x + aside, y);
+    const box = boxes.find(isFree) ?? boxAt(aside, 0);
     this.taken.push(box);
-    drawText(ctx, palette, text, [box[0], box[1] + half]);
+    const middle: Vec2 = [(box[0] + box[2]) / 2, (box[1] + box[3]) / 2];
+    drawText(ctx, palette, text, middle, { align: 'center', isTurned });
   }
 }

@@ -69,7 +69,7 @@ export function startOf({ scenario }: SceneMessage, history: History): Vec2 | un
   return [history.before(0, 'bead_x_m'), history.before(0, 'bead_y_m')];
 }
 
-function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
+function paintState(ctx: Ctx, picture: Picture, state: StateMessage): void {
   const { view, palette, scene, free } = picture.base.ground;
   const { history, grab } = picture;
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
@@ -84,7 +84,7 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: nu
   if (grab) drawGrabRing(ctx, view, palette, bead, grab.isNear);
   drawTool(ctx, view, palette, tool);
   const pull = pullOf(picture.act, state, scene);
-  if (pull) drawPull(ctx, view, palette, widthPx, bead, pull);
+  if (pull) drawPull(ctx, view, palette, bead, pull);
   drawBead(ctx, view, palette, bead, scene.bead_radius_m);
   drawTracked(ctx, view, palette, state.bead_tracked_m);
 }
@@ -107,7 +107,7 @@ export function createPainter() {
     if (!ctx) return;
     const { base, state, cursor } = picture;
     bases.copy(ctx, base, size, ratio);
-    if (state) paintState(ctx, picture, state, size.width);
+    if (state) paintState(ctx, picture, state);
     if (cursor) drawCursor(ctx, base.ground.view, base.ground.palette, cursor);
   };
 }

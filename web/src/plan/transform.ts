@@ -9,6 +9,8 @@ export interface View {
   /** Canvas position of the world's origin, in CSS pixels; it may lie outside the canvas. */
   readonly originX: number;
   readonly originY: number;
+  /** The page shows the canvas turned by 90°, clockwise. */
+  readonly isTurned?: true;
 }
 
 export interface Insets {

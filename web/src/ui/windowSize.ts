@@ -12,4 +12,6 @@ function matches(query: string): Accessor<boolean> {
 }
 
 export const isPhone = matches('(max-width: 640px)');
+/** The map is turned, so that it fills a high window. */
+export const isUpright = matches('(max-width: 640px) and (orientation: portrait)');
 export const isLow = matches('(max-height: 719px)');

@@ -20,7 +20,7 @@ function showResult(): void {
 export function StageBar(props: {
   lab: StageLab;
   /** Moves the focus to the map, for the arrow keys. */
-  onStart: () => void;
+  onStart?: () => void;
 }): JSX.Element {
   const { lab } = props;
   const { contest } = lab;
@@ -105,7 +105,7 @@ export function StageBar(props: {
                 disabled={!lab.canOperate()}
                 onClick={() => {
                   start();
-                  props.onStart();
+                  props.onStart?.();
                 }}
               >
                 Start

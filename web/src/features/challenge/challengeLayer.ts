@@ -48,7 +48,7 @@ export const CHALLENGE_LAYER: MapLayer = {
         const sample = frame() / FRAMES_PER_S / sample_s;
         const loss = isOver(contest.attempt()) ? contest.report()?.loss : undefined;
         return (ctx, { view, palette }) => {
-          const labels = new Labels();
+          const labels = new Labels(view.isTurned);
           const shown = ghosts.flatMap((ghost) => {
             const tool_m = placeAt(ghost.trace.tool_m, sample);
             const bead_m = placeAt(ghost.trace.bead_m, sample);

@@ -30,7 +30,7 @@ export const GHOSTS_LAYER: MapLayer = {
           const [path_m, ahead_m] = [places.slice(0, now + 1), places.slice(now)];
           return [{ ...ghost, controller, label, path_m, ahead_m }];
         });
-        drawGhosts(ctx, view, palette, ghosts, new Labels());
+        drawGhosts(ctx, view, palette, ghosts, new Labels(view.isTurned));
       };
     },
   }),

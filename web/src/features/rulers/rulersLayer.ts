@@ -13,6 +13,7 @@ const inCm = (place_m: number): string => fixed(100 * place_m, 0);
 
 const drawRulers: Draw<BasePicture> = (ctx, { view, palette, scene }) => {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
+  const { isTurned } = view;
   const step = gridStepM(view.pxPerM);
   const within = (from: number, to: number): number[] => [
     ...multiples(step, from + step / 2, to - step / 2),
@@ -36,9 +37,11 @@ const drawRulers: Draw<BasePicture> = (ctx, { view, palette, scene }) => {
   }
   strokeCased(ctx, palette, { colour: palette['m-ink'], width_px: 1.5 });
   for (const [x_m, x] of along) {
-    drawText(ctx, palette, inCm(x_m), [x, bottom - GAP_PX], 'center');
+    drawText(ctx, palette, inCm(x_m), [x, bottom - GAP_PX], { align: 'center', isTurned });
   }
-  for (const [y_m, y] of up) drawText(ctx, palette, inCm(y_m), [left + GAP_PX - 3, y]);
+  for (const [y_m, y] of up) {
+    drawText(ctx, palette, inCm(y_m), [left + GAP_PX, y], { align: 'center', isTurned });
+  }
 };
 
 export const RULERS_LAYER: MapLayer = {
