@@ -1,6 +1,7 @@
 // Rows of the control table: challenges.
 
 import type { Lab } from '../support/lab';
+import { showPanel } from '../support/preconditions';
 import { until } from '../support/wait';
 import { type Section, valueOf } from './row';
 
@@ -12,7 +13,7 @@ const challenge = (lab: Lab) => lab.scene.challenge;
 const trial = (lab: Lab) => lab.scene.trial;
 
 async function list(lab: Lab) {
-  await lab.panel('Play');
+  await showPanel('Play')(lab);
   if (lab.scene.challenge)
     await lab.page.getByRole('button', { name: /^(All challenges|Give up)$/ }).click();
   await until('no challenge', () => !lab.scene.challenge);

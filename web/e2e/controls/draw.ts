@@ -3,6 +3,7 @@
 import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
 import { DRAWING, openMap } from '../support/maps';
+import { showTabs } from '../support/preconditions';
 import { must, until } from '../support/wait';
 import { type Row, type Section, downloads, isChecked, isPressed, valueOf, view } from './row';
 
@@ -113,6 +114,7 @@ export const DRAW: Section = {
       after: async (lab) => {
         const name = lab.scene.map;
         expect(name).toContain('drawn-by-');
+        await showTabs(lab);
         await lab.reset({ map: 'posts' });
         const { origin } = new URL(lab.page.url());
         expect((await lab.page.request.delete(`${origin}/api/maps/${name}`)).status()).toBe(204);

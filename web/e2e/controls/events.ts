@@ -2,9 +2,9 @@
 
 import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
-import { ensureGoal, ensureNoGoal, ensurePaused, open } from '../support/preconditions';
+import { ensureGoal, ensureNoGoal, ensurePaused, open, showPanel } from '../support/preconditions';
 import { must, until } from '../support/wait';
-import { type Section, dialogs, downloads, isChecked, lastSent, tab } from './row';
+import { type Section, dialogs, downloads, isChecked, lastSent } from './row';
 
 const COMPUTED_MS = 60_000;
 
@@ -29,7 +29,7 @@ async function setNewGoal(lab: Lab) {
 /** Opens the explanation of an event that has others before and after it. */
 async function openExplanation(lab: Lab) {
   if (await dialogs(lab)) return;
-  await lab.panel('Story');
+  await showPanel('Story')(lab);
   await lab.page
     .getByRole('button', { name: /^Why: / })
     .nth(-2)
@@ -117,7 +117,7 @@ export const EVENTS: Section = {
     await setNewGoal(lab);
     await ensurePaused(lab);
     await lab.deliver();
-    await lab.panel('Story');
+    await showPanel('Story')(lab);
   },
   rows: {
     // In the toolbar of the timeline.
@@ -140,7 +140,7 @@ export const COMPARE: Section = {
   name: 'comparisons',
   ready: async (lab) => {
     await ensurePaused(lab);
-    await lab.panel('Compare');
+    await showPanel('Compare')(lab);
   },
   rows: {
     'checkbox Compare RL': { see: isChecked, isToggle: true },
@@ -204,7 +204,7 @@ const goToRun = async (lab: Lab) => {
 
 export const LESSONS: Section = {
   name: 'lessons',
-  ready: tab('Lessons'),
+  ready: showPanel('Learn'),
   rows: {
     ...Object.fromEntries(
       LESSON_TITLES.map((name) => [
@@ -219,6 +219,9 @@ export const LESSONS: Section = {
     'button Set it up again': { see: (lab) => lab.scene.trial },
     'button /^Train lesson-/': {
       elsewhere: 'the trainings of the lesson “Why learning fails” confirm its claim',
+    },
+    'button Finish': {
+      elsewhere: 'does the first lesson by keyboard, and remembers it after a reload',
     },
     'button All lessons': { see: lessonHeadings, ready: openLesson },
     'button Start over': { see: (lab) => lab.button('Start over').isDisabled() },

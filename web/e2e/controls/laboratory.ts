@@ -3,6 +3,7 @@
 import { expect } from '@playwright/test';
 import type { InputMethod } from '../support/inputMethods';
 import type { ControllerLabel, Lab } from '../support/lab';
+import type { Panel } from '../support/labControls';
 import { openMap } from '../support/maps';
 import {
   ensureGoal,
@@ -11,31 +12,45 @@ import {
   ensureRunning,
   freePointNearBead,
   open,
+  openLayers,
+  openSetUp,
+  showPanel,
+  showTabs,
 } from '../support/preconditions';
 import { until } from '../support/wait';
-import { RESTORE } from './parameters';
-import { type Row, type Section, expanded, toggle, view } from './row';
+import { type Row, type Section, expanded, isPressed, isSelected, toggle, view } from './row';
 
-const isSelected: Row['see'] = (_lab, locator) => locator.getAttribute('aria-selected');
 const theme = (lab: Lab) => lab.page.evaluate(() => document.documentElement.dataset.theme);
 const shownView = (lab: Lab) => lab.page.locator('[aria-current=page]').innerText();
-const role = (lab: Lab) => lab.text('role');
+const role = (lab: Lab) => lab.page.getByTestId('connection').getAttribute('data-role');
 const trial = (lab: Lab) => lab.scene.trial;
 const layers = (lab: Lab) =>
   lab.page.evaluate(() => {
     const stored = Object.entries(localStorage);
     return stored.filter(([key]) => key.startsWith('ferry.layer.')).sort();
   });
+/** The shown panel of the inspector. */
+const panel = async (lab: Lab) => {
+  const shown = lab.page.locator('.inspector');
+  if ((await shown.count()) === 0) return 'none';
+  return shown.locator('[aria-selected=true], h2').first().innerText();
+};
+const part = (lab: Lab) =>
+  lab.page.getByRole('radiogroup', { name: 'Test' }).locator('input:checked').inputValue();
 
 const ensureTheme = (name: 'light' | 'dark') => async (lab: Lab) => {
-  const button = lab.button(`Use ${name} colours`);
+  const button = lab.button(name === 'light' ? 'Light' : 'Dark');
   if (await button.count()) await button.click();
 };
+const ofTest = (from: Panel): Row => ({ see: part, ready: showPanel(from) });
 const controller = (name: ControllerLabel): Row => ({
   see: (lab) => lab.state.controller,
   after: (lab) => until(name, () => lab.state.controller === name.toLowerCase()),
 });
-const backToPosts = (lab: Lab) => lab.map('posts');
+async function backToPosts(lab: Lab) {
+  await showTabs(lab);
+  await lab.map('posts');
+}
 
 async function typeSeed(input: InputMethod, locator: Parameters<InputMethod['press']>[0]) {
   const { keyboard } = input.page;
@@ -54,32 +69,17 @@ async function typeSeed(input: InputMethod, locator: Parameters<InputMethod['pre
 export const VIEWS: Section = {
   name: 'views, colours and control',
   rows: {
-    'link Laboratory': { see: shownView, ready: view('Recordings') },
+    'link Lab': { see: shownView, ready: view('Recordings') },
     'link Recordings': { see: shownView, after: view('Lab') },
     'link Evaluate': { see: shownView, after: view('Lab') },
-    'button Use light colours': { see: theme, ready: ensureTheme('dark') },
-    'button Use dark colours': { see: theme, ready: ensureTheme('light') },
-    'button Release control': { see: role },
+    'button Light': { see: theme, ready: ensureTheme('dark') },
+    'button Dark': { see: theme, ready: ensureTheme('light') },
+    'button More': toggle(expanded),
+    'button Release control': { see: role, ready: open('More') },
     'button Take control': { see: role },
-    'tab Events': { see: isSelected },
-    'tab Lessons': { see: isSelected },
-    'tab Compare': { see: isSelected },
-    'tab Recovery': { see: isSelected },
-    'tab Challenge': { see: isSelected },
-    'button Plots': {
-      see: (_lab, locator) => locator.getAttribute('aria-pressed'),
-      isToggle: true,
-    },
-    'button Camera': toggle(expanded, (lab) => lab.panel('Now')),
-    'button Curves': {
-      see: (lab) => lab.tab('Tune').getAttribute('aria-selected'),
-      ready: (lab) => lab.panel('Now'),
-    },
-    'button Beside the workspace': toggle(expanded),
-    'button Below the workspace': toggle(expanded),
-    'button Share': toggle(expanded),
     'link Present': {
       see: (lab) => lab.page.url(),
+      ready: open('More'),
       after: async (lab) => {
         const { origin } = new URL(lab.page.url());
         await lab.page.getByRole('heading', { name: 'Demonstration' }).waitFor();
@@ -88,8 +88,32 @@ export const VIEWS: Section = {
         await lab.page.request.delete(`${origin}/api/sessions/demo`);
       },
     },
-    'button Layers': toggle(expanded),
-    'button Disturb': toggle(expanded),
+    ...Object.fromEntries(
+      ['Now', 'Story', 'Learn', 'Play', 'Test', 'Tune'].map((name) => [
+        `tab ${name}`,
+        { see: isSelected, ready: showTabs },
+      ]),
+    ),
+    'radio Compare': ofTest('Recovery'),
+    'radio Recovery': ofTest('Compare'),
+    'radio Disturb': ofTest('Compare'),
+    'button Disturb': { see: panel, ready: showPanel('Now') },
+    'button Layers': { see: panel, ready: showPanel('Now'), isToggle: true },
+    'button Key': { see: panel, ready: showPanel('Now') },
+    'button Close': { see: panel, ready: openLayers },
+    'button /seed \\d+$/': { see: panel, ready: showPanel('Now'), isToggle: true },
+    'button Hide the panel': { see: panel, ready: showPanel('Now') },
+    'button Show the panel': {
+      see: panel,
+      ready: async (lab) => {
+        const hide = lab.button('Hide the panel');
+        if (await hide.count()) await hide.click();
+      },
+    },
+    'button Plots': toggle(isPressed),
+    'button Camera': toggle(expanded, showPanel('Now')),
+    'button Curves': { see: panel, ready: showPanel('Now') },
+    'button Share': toggle(expanded),
     'radio RL': controller('RL'),
     'radio ERRT': controller('ERRT'),
     'radio Attractor': controller('Attractor'),
@@ -128,6 +152,9 @@ export const WORKSPACE: Section = {
     'radio quadtree': {
       see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d'),
       ready: async (lab) => {
+        await lab.panel('Now');
+        if ((await lab.button('Camera').getAttribute('aria-expanded')) === 'false')
+          await lab.button('Camera').click();
         if (!(await lab.page.getByTestId('blocks').count())) await lab.button('Step').click();
         await lab.page.getByTestId('blocks').waitFor();
       },
@@ -156,13 +183,18 @@ export const PLAYBACK: Section = {
       ready: ensureRunning,
       after: ensurePaused,
     },
-    'button Step ¼ s': { see: (lab) => lab.state.tick },
     'button Step': { see: (lab) => lab.state.tick },
     'slider Timeline': { see: (lab) => lab.state.tick, ready: ensureHistory },
     'button Reset': { see: trial },
     'combobox Speed': { see: (lab) => lab.state.speed_target },
-    'spinbutton Seed': { see: (lab) => lab.scene.seed, act: typeSeed },
-    'button New seed': { see: (lab) => lab.scene.seed },
+    'button Live': {
+      see: (lab) => lab.state.tick,
+      ready: async (lab) => {
+        await ensureHistory(lab);
+        await lab.send({ type: 'rewind', tick: lab.state.oldest_tick });
+        await until('the past', () => lab.state.tick < lab.state.newest_tick);
+      },
+    },
     'button /^Kept runs/': toggle(expanded, ensureKeptRun),
     'button /^Return to run/': {
       see: trial,
@@ -177,10 +209,8 @@ export const PLAYBACK: Section = {
 
 export const EXPERIMENTS: Section = {
   name: 'maps and presets',
-  rowReady: async (lab) => {
-    const title = lab.page.getByTitle('Set up: map, preset, seed');
-    if ((await title.getAttribute('aria-expanded')) === 'false') await title.click();
-  },
+  rowReady: openSetUp,
+  after: showTabs,
   rows: {
     'radio /^(attractor-example(-arm)?|colon(-folds)?|open|posts|u-turn|vessels)$/': {
       see: (lab) => lab.scene.map,
@@ -206,23 +236,8 @@ export const EXPERIMENTS: Section = {
     'button Train a policy on it': {
       elsewhere: 'draws a maze, trains on it, uses the policy, and it delivers',
     },
-    'button Restore defaults': RESTORE,
-    'combobox Sensors': {
-      see: (lab) => lab.scene.parameters.tracker_dropout,
-      after: (lab) => lab.restoreDefaults(),
-    },
-    'combobox Camera mount': {
-      see: (lab) => lab.scene.parameters.camera_sees_magnet,
-      after: (lab) => lab.restoreDefaults(),
-    },
-    'combobox Robot': {
-      see: (lab) => lab.scene.parameters.friction,
-      after: (lab) => lab.restoreDefaults(),
-    },
-    'combobox Walls': {
-      see: (lab) => lab.scene.parameters.peristalsis_amplitude_m,
-      after: (lab) => lab.restoreDefaults(),
-    },
+    'spinbutton Seed': { see: (lab) => lab.scene.seed, act: typeSeed },
+    'button New seed': { see: (lab) => lab.scene.seed },
     'combobox Preset': { see: trial },
   },
 };
@@ -244,10 +259,12 @@ const LAYER_NAMES = [
   'Obstacles',
   'Attractor flow',
   'Singularity',
+  'Rulers, cm',
 ];
 
 export const LAYERS: Section = {
   name: 'layers',
-  rowReady: open('Layers'),
+  ready: openLayers,
+  after: showTabs,
   rows: Object.fromEntries(LAYER_NAMES.map((name) => [`checkbox ${name}`, toggle(layers)])),
 };

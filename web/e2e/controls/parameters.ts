@@ -3,6 +3,7 @@
 import { expect } from '@playwright/test';
 import type { InputMethod } from '../support/inputMethods';
 import type { ControllerLabel, Lab } from '../support/lab';
+import { showPanel } from '../support/preconditions';
 import { until } from '../support/wait';
 import type { Parameters } from '../support/wire';
 import { type Row, type Rows, type Section, toggle } from './row';
@@ -151,11 +152,26 @@ export const bound = (name: Name): Row => ({
   ...(LIMITING.includes(name) ? { after: restore } : {}),
 });
 
-export const RESTORE: Row = {
-  see: (lab) => lab.scene.parameters.threshold_m,
-  ready: async (lab) => {
-    await lab.tune('Threshold T', '8');
-    await until('another threshold', () => lab.scene.parameters.threshold_m === 0.08);
+const preset = (name: Name): Row => ({
+  see: (lab) => lab.scene.parameters[name],
+  after: (lab) => lab.restoreDefaults(),
+});
+
+export const PRESETS: Section = {
+  name: 'presets of parameters',
+  ready: showPanel('Tune'),
+  rows: {
+    'button Restore defaults': {
+      see: (lab) => lab.scene.parameters.threshold_m,
+      ready: async (lab) => {
+        await lab.tune('Threshold T', '8');
+        await until('another threshold', () => lab.scene.parameters.threshold_m === 0.08);
+      },
+    },
+    'combobox Sensors': preset('tracker_dropout'),
+    'combobox Camera mount': preset('camera_sees_magnet'),
+    'combobox Robot': preset('friction'),
+    'combobox Walls': preset('peristalsis_amplitude_m'),
   },
 };
 
@@ -178,7 +194,7 @@ const GROUPS_OF_EVERY_KIND = ['RL', 'Switching'];
 const sectionOf = ({ name, controller, fields }: Group): Section => ({
   name: `parameters: ${name}`,
   ready: async (lab) => {
-    await lab.panel('Tune');
+    await showPanel('Tune')(lab);
     if (controller) await lab.controller(controller);
     const summary = summaryOf(lab, name);
     const isOpen = () => summary.evaluate((one) => (one.parentElement as HTMLDetailsElement).open);

@@ -44,7 +44,7 @@ export const valueOf = (_lab: Lab, locator: Locator) => locator.inputValue();
 export const expanded = (_lab: Lab, locator: Locator) => locator.getAttribute('aria-expanded');
 export const dialogs = (lab: Lab) => lab.page.getByRole('dialog').count();
 export const downloads = (lab: Lab) => lab.downloads;
-export const tab = (name: string) => (lab: Lab) => lab.tab(name).click();
+export const isSelected = (_lab: Lab, locator: Locator) => locator.getAttribute('aria-selected');
 export const view = (name: string) => (lab: Lab) => lab.view(name).click();
 /** The last message of a type, or null. */
 export const lastSent = (type: string) => (lab: Lab) => lab.sent[type] ?? null;

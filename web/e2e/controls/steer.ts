@@ -1,6 +1,7 @@
 // Rows of the control table: the controller You.
 
 import type { Lab } from '../support/lab';
+import { showPanel } from '../support/preconditions';
 import { until } from '../support/wait';
 import { type Section, isChecked, toggle, valueOf } from './row';
 
@@ -9,6 +10,7 @@ const picking = (lab: Lab) => lab.page.getByText('Pick a place').count();
 export const STEER: Section = {
   name: 'the controller You',
   ready: async (lab) => {
+    await showPanel('Now')(lab);
     await lab.controller('You');
     const clear = lab.button('Clear goal');
     if ((await clear.count()) > 0 && (await clear.isEnabled())) await clear.click();
@@ -27,8 +29,12 @@ export const STEER: Section = {
       after: (lab) => lab.label('What you see').selectOption('all'),
     },
     'button Challenges…': {
-      see: (lab) => lab.tab('Challenge').getAttribute('aria-selected'),
-      ready: (lab) => lab.tab('Now').click(),
+      see: (lab) => lab.tab('Play').getAttribute('aria-selected'),
+      ready: showPanel('Now'),
+    },
+    // Only with a gamepad.
+    'button Choose the stick again': {
+      elsewhere: 'a gamepad with an unknown layout rests until its cross was pushed on request',
     },
     'button Set goal': { see: picking, after: (lab) => lab.canvas.press('Escape') },
   },

@@ -8,7 +8,7 @@ import { CHALLENGE } from './challenge';
 import { DRAW } from './draw';
 import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
 import { EXPERIMENTS, LAYERS, PLAYBACK, VIEWS, WORKSPACE } from './laboratory';
-import { PARAMETERS, SOME_PARAMETERS } from './parameters';
+import { PARAMETERS, PRESETS, SOME_PARAMETERS } from './parameters';
 import { RECOVERY } from './recovery';
 import type { Row, Section } from './row';
 import { STEER } from './steer';
@@ -22,7 +22,7 @@ type SectionsByTest = Readonly<Record<string, readonly Section[]>>;
 
 /** The sections of each test. Small sections share a test, because opening a page takes longer than they do. */
 const SECTIONS_BY_TEST: SectionsByTest = {
-  'views, maps and presets': [VIEWS, EXPERIMENTS, STEER],
+  'views, maps and presets': [VIEWS, EXPERIMENTS, PRESETS, STEER],
   'the workspace and the playback bar': [WORKSPACE, PLAYBACK],
   'the layers and the link': [LAYERS, SHARE],
   'plots, magnet and disturbances': [PLOTS, MAGNET, DISTURB],

@@ -3,7 +3,7 @@
 import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
 import { startEvaluation } from '../support/evaluations';
-import { open, openSceneView } from '../support/preconditions';
+import { openSceneView, showPanel } from '../support/preconditions';
 import { cameraAtRest, freeInPicture, px } from '../support/scene';
 import { must } from '../support/wait';
 import { bound } from './parameters';
@@ -15,8 +15,8 @@ import {
   downloads,
   expanded,
   isChecked,
+  isPressed,
   lastSent,
-  tab,
   toggle,
   valueOf,
   view,
@@ -60,7 +60,7 @@ const RANDOM_MOVES = 'Number of random moves';
 
 export const DISTURB: Section = {
   name: 'disturbances',
-  ready: open('Disturb'),
+  ready: showPanel('Disturb'),
   rows: {
     'combobox Kind of disturbance': { see: valueOf, after: kind('kick') },
     'button Kick now': { see: (lab) => lab.events.length },
@@ -69,6 +69,14 @@ export const DISTURB: Section = {
     'button Push now': { see: sentDisturbance, ready: kind('push') },
     'spinbutton Force of the push in mN': sentByButton(kind('push')),
     'spinbutton Duration of the push in seconds': sentByButton(kind('push')),
+    'button Move now': { see: sentDisturbance, ready: kind('move') },
+    'spinbutton x of the new place in metres': sentByButton(kind('move')),
+    'spinbutton y of the new place in metres': sentByButton(kind('move')),
+    'button Pick the new place on the map': {
+      see: isPressed,
+      ready: kind('move'),
+      isToggle: true,
+    },
     'button Blind tracker now': { see: sentDisturbance, ready: kind('blind') },
     'spinbutton Duration of the blindness in seconds': sentByButton(kind('blind')),
     'combobox When the disturbance happens': { see: valueOf, after: time('now') },
@@ -76,6 +84,13 @@ export const DISTURB: Section = {
     'spinbutton Control step on the way to a goal': { see: valueOf, ready: time('step') },
     'spinbutton x that the bead passes, in metres': { see: valueOf, ready: time('passes') },
     'spinbutton Within this distance of the place in cm': { see: valueOf, ready: time('near') },
+    'spinbutton x of the place to reach in metres': { see: valueOf, ready: time('near') },
+    'spinbutton y of the place to reach in metres': { see: valueOf, ready: time('near') },
+    'button Pick the place to reach on the map': {
+      see: isPressed,
+      ready: time('near'),
+      isToggle: true,
+    },
     'button Add to script and restart': { see: script, ready: time('time') },
     'button /^Remove and restart: /': { see: script },
     'button Add random moves…': { see: (lab) => lab.label(RANDOM_MOVES).count() },
@@ -165,7 +180,7 @@ export const PLOTS: Section = {
 
 export const MAGNET: Section = {
   name: 'the magnet',
-  ready: tab('Tune'),
+  ready: showPanel('Tune'),
   rows: {
     'radio the bead': { see: magnetFacts },
     'radio x': { see: magnetFacts },

@@ -2,6 +2,7 @@
 
 import { expect } from '@playwright/test';
 import type { Lab } from './lab';
+import type { Panel } from './labControls';
 import { distance } from './table';
 import { until } from './wait';
 
@@ -40,6 +41,31 @@ export const open = (name: string) => async (lab: Lab) => {
   const button = lab.button(name);
   if ((await button.getAttribute('aria-expanded')) === 'false') await button.click();
 };
+
+/** Closes *Layers* or *Set up*, which take the place of the tabs. */
+export async function showTabs(lab: Lab) {
+  const close = lab.page.locator('.inspector-head').getByRole('button', { name: 'Close' });
+  if (await close.count()) await close.click();
+  await lab.tab('Now').waitFor();
+}
+
+/** Shows a panel, also when another one is in the place of the tabs. */
+export const showPanel = (name: Panel) => async (lab: Lab) => {
+  await showTabs(lab);
+  await lab.panel(name);
+};
+
+export async function openLayers(lab: Lab) {
+  if ((await lab.button('Layers').getAttribute('aria-pressed')) === 'false')
+    await lab.button('Layers').click();
+}
+
+export const setUpButton = (lab: Lab) => lab.page.getByTitle('Set up: map, preset, seed');
+
+export async function openSetUp(lab: Lab) {
+  if ((await setUpButton(lab).getAttribute('aria-expanded')) === 'false')
+    await setUpButton(lab).click();
+}
 
 /** Opens the 3-D view and waits until it draws. */
 export async function openSceneView(lab: Lab) {
