@@ -12,6 +12,13 @@ const OPEN_MS = 30_000;
 const DELIVERY_MS = 60_000;
 export type ControllerLabel = 'RL' | 'ERRT' | 'Attractor' | 'You';
 
+/** The page opens as on a later visit, without the scene that begins the first one. */
+export const skipFirstVisit = (page: Page) =>
+  page.addInitScript(() => {
+    // An empty page has no storage.
+    if (location.host !== '') localStorage.setItem('ferry.visit', 'done');
+  });
+
 export class Lab extends LabControls {
   /** Opens a session's page and waits until it is connected. */
   static async attach(page: Page, url: string) {
@@ -25,7 +32,7 @@ export class Lab extends LabControls {
     const lab = new Lab(page);
     await page.addInitScript(keepSocket);
     await page.addInitScript(countGpu);
-    await page.addInitScript(() => localStorage.setItem('ferry.visit', 'done'));
+    await skipFirstVisit(page);
     await page.goto(url);
     return lab;
   }
