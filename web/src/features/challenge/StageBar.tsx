@@ -97,7 +97,7 @@ export function StageBar(props: {
             </Match>
             <Match when={waits()}>
               <p>
-                Roll the bead into the green ring. The clock starts when you steer, or press Start.
+                Roll the bead into the green ring. The clock starts when you steer.
               </p>
               <button
                 type="button"
