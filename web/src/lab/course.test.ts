@@ -5,6 +5,7 @@ import { CARRIERS } from '../ui/controllers';
 import { History } from './history';
 import type { Input } from './model';
 import { sceneOf, stateAt } from './testing';
+import { eventAt } from './testingFacts';
 
 /** As the server encodes it. */
 function bytesOf(step: number, first: number, count: number): Uint8Array<ArrayBuffer> {
@@ -54,6 +55,16 @@ describe('the course', () => {
 
   it('is whole for a page that comes late', () => {
     expect(ticks(recorded(scene(1), part(0, 5, 5, 3), state(17)))).toEqual([5, 10, 15, 17]);
+  });
+
+  it('has no way of the bead where it was put elsewhere', () => {
+    const what = { code: 'displaced', distance_m: 0.1 } as const;
+    const event = { type: 'event', ...eventAt(12, 'disturbance', what) } as const;
+    const history = recorded(scene(1), part(0, 5, 5, 3), { type: 'message', message: event });
+    expect(history.hasJump(10, 15)).toBe(true);
+    expect(history.hasJump(5, 10)).toBe(false);
+    history.clear();
+    expect(history.hasJump(10, 15)).toBe(false);
   });
 
   it('fills what lies between two states, also those that no frame has shown', () => {

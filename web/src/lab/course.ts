@@ -66,6 +66,10 @@ export function createRecorder(history: History): (input: Input) => void {
     } else if (input.type === 'message') {
       const { message } = input;
       if (message.type === 'state') record(message);
+      else if (message.type === 'event') {
+        const { code } = message.what;
+        if (code === 'displaced' || code === 'placed') history.addJump(message.tick);
+      }
       else if (message.type === 'scene') {
         if (trial !== undefined && trial !== message.trial) history.clear();
         ({ trial, tick_s } = message);

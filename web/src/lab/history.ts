@@ -41,6 +41,8 @@ const THINNED = 0.875;
 export class History {
   private readonly columns: Samples;
   private end = 0;
+  /** Ticks at which the bead was put elsewhere: it has no way from the sample before to the one after. */
+  private readonly jumps = new Set<number>();
   /** Smallest number of ticks between two old samples. */
   private grainTicks = 1;
 
@@ -87,6 +89,15 @@ export class History {
     this.end += 1;
   }
 
+  addJump(tick: number): void {
+    this.jumps.add(tick);
+  }
+
+  /** Whether the bead was put elsewhere between two ticks. */
+  hasJump(from: number, to: number): boolean {
+    return [...this.jumps].some((tick) => from <= tick && tick <= to);
+  }
+
   /** Removes the samples after `tick`: the session was rewound and continues from there. */
   cutAfter(tick: number): void {
     this.end = this.firstIndex('tick', tick, true);
@@ -95,6 +106,7 @@ export class History {
   clear(): void {
     this.end = 0;
     this.grainTicks = 1;
+    this.jumps.clear();
   }
 
   /** Views of the samples with `fromS` ≤ time ≤ `toS`, oldest first; valid until the next push. */

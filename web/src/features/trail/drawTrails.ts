@@ -19,7 +19,7 @@ export const drawTrails: Draw<MovingPicture> = (ctx, { view, palette, state, his
   const [tool, bead] = trailsOf(state, history);
   drawTrail(ctx, view, palette.magnet, tool.xs_m, tool.ys_m);
   const { xs_m, ys_m } = bead;
-  const { controller, mode } = history.window(0, state.sim_time_s);
+  const { controller, mode, tick } = history.window(0, state.sim_time_s);
   const last = xs_m.length - 1;
   let path = new Path2D();
   let carrier: Controller | undefined;
@@ -37,7 +37,8 @@ export const drawTrails: Draw<MovingPicture> = (ctx, { view, palette, state, his
     const isOther = now !== carrier;
     const [x, y] = pxFromWorld(view, [xs_m[i] ?? 0, ys_m[i] ?? 0]);
     const isFar = !(Math.abs(x - fromX) + Math.abs(y - fromY) < APART_PX);
-    if (!isFar && !isOther && i < last) continue;
+    const isJump = i > 0 && history.hasJump(tick[i - 1] ?? 0, tick[i] ?? 0);
+    if (!isFar && !isOther && !isJump && i < last) continue;
     if (isOther) {
       finish();
       path = new Path2D();
@@ -45,7 +46,7 @@ export const drawTrails: Draw<MovingPicture> = (ctx, { view, palette, state, his
       isEmpty = true;
       path.moveTo(...(Number.isNaN(fromX) ? ([x, y] as const) : ([fromX, fromY] as const)));
     }
-    if (i === 0) path.moveTo(x, y);
+    if (i === 0 || isJump) path.moveTo(x, y);
     else {
       path.lineTo(x, y);
       isEmpty = false;

@@ -78,7 +78,7 @@ export const sceneTrails: CreateSceneObject = (paints) => {
     place: (state, history) => {
       for (const strokes of [casing, tool, ...looks.values()]) strokes.clear();
       const [toolTrail, { xs_m, ys_m }] = trailsOf(state, history);
-      const { controller, mode } = history.window(0, state.sim_time_s);
+      const { controller, mode, tick } = history.window(0, state.sim_time_s);
       const last = xs_m.length - 1;
       const stride = Math.max(1, Math.ceil(xs_m.length / POINTS));
       const dashes = new Map<Controller | undefined, Dashes>();
@@ -94,6 +94,7 @@ export const sceneTrails: CreateSceneObject = (paints) => {
           dashes.get(carrier) ??
           new Dashes(lookOf(carrier), carrier ? dashOf(carrier, LINE_PX) : LOOSE_DASH);
         dashes.set(carrier, way);
+        if (history.hasJump(tick[before] ?? 0, tick[i] ?? 0)) continue;
         casing.move(x, y, UP_M).line(toX, toY, UP_M);
         way.line(x, y, toX, toY);
       }
