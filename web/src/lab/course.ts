@@ -69,8 +69,7 @@ export function createRecorder(history: History): (input: Input) => void {
       else if (message.type === 'event') {
         const { code } = message.what;
         if (code === 'displaced' || code === 'placed') history.addJump(message.tick);
-      }
-      else if (message.type === 'scene') {
+      } else if (message.type === 'scene') {
         if (trial !== undefined && trial !== message.trial) history.clear();
         ({ trial, tick_s } = message);
       }
