@@ -161,7 +161,8 @@ export class Lab extends LabControls {
 
   async map(name: string) {
     if (this.scene.map === name) return;
-    await this.setUp();
+    // A drawing that was added opens it.
+    if ((await this.setUpButton.getAttribute('aria-expanded')) === 'false') await this.setUp();
     await this.mapChoice(name).check();
     await this.setUp();
     await this.shown(`map ${name}`, () => this.scene.map === name);

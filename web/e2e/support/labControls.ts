@@ -63,8 +63,12 @@ export class LabControls extends Stepper {
     return maps.getByRole('radio', { name, exact: true });
   }
 
+  get setUpButton() {
+    return this.page.getByTitle('Set up: map, preset, seed');
+  }
+
   /** Opens or closes the panel *Set up*. */
   async setUp() {
-    await this.page.getByRole('region', { name: 'Experiment' }).locator('.experiment').click();
+    await this.setUpButton.click();
   }
 }

@@ -16,7 +16,7 @@ test('events that would overlap share a button with the name of the most importa
     [0, 'ink-2', 3],
     [200, 'goal', 1],
   ]);
-  expect(found[0]?.name).toBe('Switch at 0.1 s: set up: switch, and 2 more');
+  expect(found[0]?.name).toBe('Switch at 0.1 s: set up: switch, one of 3 events');
   expect(found[1]?.name).toBe('Delivered at 1.6 s: set up: delivered');
 });
 

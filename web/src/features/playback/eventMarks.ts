@@ -30,8 +30,7 @@ function clusterOf(px: number, events: readonly EventMessage[], first: EventMess
   const rank = (event: EventMessage): number => RANKS.get(event.kind) ?? EVENT_SYMBOLS.length;
   for (const event of events) if (rank(event) < rank(first)) first = event;
   const look = eventLook(first);
-  const others = events.length - 1;
-  const more = others === 0 ? '' : `, and ${others} more`;
+  const more = events.length === 1 ? '' : `, one of ${events.length} events`;
   return {
     px,
     events,
