@@ -1,4 +1,4 @@
-// Contrast, names, sizes and Tab order of every view, tab and popover in both themes.
+// Contrast, names, sizes, legibility and Tab order of every view, panel and popover in both themes.
 // Saves a picture of each panel in test-output.
 
 import { fileURLToPath } from 'node:url';
@@ -8,17 +8,19 @@ import { DAILY, LONG, type Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { DESKTOP, TABLET } from './support/browser';
 import { MIN_SIDE_PX, controls, faultsOf, unreached } from './support/inventory';
+import { illegible } from './support/legible';
 import {
   type Place,
   type Places,
   challenge,
   controllers,
   inTurn,
+  panels,
+  plots,
   prepare,
   refusalsHelpAndRoles,
   sceneView,
   slug,
-  tabs,
   view,
 } from './support/places';
 
@@ -27,14 +29,13 @@ const RULES_BY_THEME = { dark: undefined, light: ['color-contrast', 'link-in-tex
 const THEMES = ['dark', 'light'] as const;
 type Theme = (typeof THEMES)[number];
 const VIEWS = ['Lab', 'Draw', 'Train', 'Recordings', 'Evaluate'];
-const TAB_AREAS = ['lower', 'aside'];
-const DAILY_PLACES = ['views', 'tabs'];
+const DAILY_PLACES = ['views', 'panels'];
 const DAILY_WINDOW = 'small';
 const PICTURES = fileURLToPath(new URL('../../test-output/', import.meta.url));
 
 const PLACES: Record<string, Places> = {
   views: inTurn(VIEWS.map(view)),
-  tabs: inTurn(TAB_AREAS.map(tabs)),
+  panels: inTurn([panels, plots]),
   'controllers, refusals, help and roles': inTurn([controllers, refusalsHelpAndRoles]),
   'a challenge': challenge,
   'the 3-D view': sceneView,
@@ -52,13 +53,6 @@ async function savePictures(lab: Lab, place: Place, theme: Theme) {
   if (!VIEWS.includes(place.name)) {
     await savePicture(place.panel, `${slug(place.name)}-${theme}`);
     return;
-  }
-  for (const panel of await place.panel.locator('section.panel').all()) {
-    const label = await panel.getAttribute('aria-label');
-    const [, name = slug(label ?? 'panel')] = ((await panel.getAttribute('class')) ?? '').split(
-      ' ',
-    );
-    await savePicture(panel, `${name}-${theme}`);
   }
   await lab.page.screenshot({ path: `${PICTURES}web-${slug(place.name)}-${theme}.png` });
 }
@@ -81,7 +75,7 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
       const isView = where === 'views';
 
       test(
-        `${where}: names, sizes, Tab order and contrast are right on a ${device}`,
+        `${where}: names, sizes, text, Tab order and contrast are right on a ${device}`,
         !isTouch && DAILY_PLACES.includes(where) ? DAILY : LONG,
         async ({ lab }) => {
           const faults = new Set<string>();
@@ -98,6 +92,7 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
             for (const fault of faultsOf(all, isTouch ? MIN_SIDE_PX.touch : MIN_SIDE_PX.mouse)) {
               faults.add(fault);
             }
+            for (const fault of await illegible(lab.page)) faults.add(`${place.name}: ${fault}`);
             const added = all.filter(({ key }) => !known.has(key));
             for (const one of added) {
               known.add(one.key);
@@ -126,13 +121,13 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
   });
 }
 
-test('the tests above cover every view and every tab list', async ({ lab }) => {
+test('the tests above cover every view, and each view has no other tabs', async ({ lab }) => {
   const views = lab.page.getByRole('navigation', { name: 'Views' }).getByRole('link');
   await expect(views).toHaveText(VIEWS);
   for (const name of VIEWS) {
     await lab.view(name).click();
     await lab.drawn();
-    await expect(lab.page.getByRole('tablist')).toHaveCount(name === 'Lab' ? TAB_AREAS.length : 0);
+    await expect(lab.page.getByRole('tablist')).toHaveCount(name === 'Lab' ? 1 : 0);
   }
 });
 

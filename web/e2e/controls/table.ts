@@ -140,7 +140,9 @@ export function hasRow(control: { key: string; role: string; name: string }) {
   const [key, name] = [control.key, control.name].map((text) =>
     text.replace(/\d+ changed$| •$/, ''),
   ) as [string, string];
-  return ROWS.some((row) =>
-    row.pattern ? row.role === role && row.pattern.test(name) : row.key === key,
+  // The style sheet may write the first letter large.
+  const names = [name, name.slice(0, 1).toLowerCase() + name.slice(1)];
+  return ROWS.some(({ pattern, ...row }) =>
+    pattern ? row.role === role && names.some((one) => pattern.test(one)) : row.key === key,
   );
 }

@@ -82,8 +82,8 @@ const GROUPS = new Set([
   'toolbar',
 ]);
 
-/** Minimum side of a control: WCAG's for a mouse, and the page's own for touch. */
-export const MIN_SIDE_PX = { mouse: 24, touch: 36 };
+/** Minimum side of a control. */
+export const MIN_SIDE_PX = { mouse: 32, touch: 44 };
 
 /** Runs in the page: measures the area of a control that can be pressed, including its labels. */
 function measure(this: HTMLInputElement & Indexed, index: number): Measured {

@@ -1,9 +1,9 @@
-// Visits the places of the page: views, tabs, what buttons and summaries open, each controller,
-// refusals and roles. The places are read from the page, so a new tab needs no change here.
+// Visits the places of the page: views, panels of the inspector, what buttons and summaries open, each
+// controller, refusals and roles. The places are read from the page, so a new tab needs no change here.
 
 import { type Locator, type Page, expect } from '@playwright/test';
 import type { Lab } from './lab';
-import { openSceneView } from './preconditions';
+import { openLayers, openSceneView, openSetUp, setUpButton, showTabs } from './preconditions';
 import { must, until } from './wait';
 
 /** So that the timeline has a history. */
@@ -11,7 +11,7 @@ const HISTORY_TICKS = 250;
 
 export interface Place {
   readonly name: string;
-  /** The panel to take a picture of. */
+  /** The part of the page that the place is about. */
   readonly panel: Locator;
   /** The control that was pressed to get there. */
   readonly opener?: Locator;
@@ -27,6 +27,9 @@ export const inTurn = (lists: readonly Places[]): Places =>
 
 export const slug = (text: string) => text.toLowerCase().replaceAll(/\W+/g, '-');
 
+const inspector = (page: Page) => page.locator('.inspector');
+const content = (page: Page) => page.locator('#inspector-panel');
+
 /** Opens all `details` elements. */
 async function openDetails(page: Page) {
   await page.evaluate(() => {
@@ -34,33 +37,50 @@ async function openDetails(page: Page) {
   });
 }
 
-/** Sets a goal, and steps until there is a history. */
+/** Sets a goal, and steps until there is a history. The run before it is kept. */
 export async function prepare(lab: Lab) {
+  await lab.reset();
+  await lab.step(1);
   await lab.reset();
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
   await lab.step(HISTORY_TICKS);
   await openDetails(lab.page);
 }
 
-/** The panel or bar that contains an element. */
-const panelOf = (locator: Locator) =>
-  locator.locator('xpath=(ancestor::section | ancestor::*[contains(@class, "bar ")])[last()]');
+/** Marks the closed buttons of `scope` that open something, and returns their names. */
+const markOpeners = (scope: Locator) =>
+  // What the button of the experiment opens is visited as a panel.
+  scope
+    .locator('button[aria-expanded=false]:not(.experiment):enabled:visible')
+    .evaluateAll((all) => {
+      const kinds = new Set<string>();
+      return all.flatMap((one, at) => {
+        const name = one.getAttribute('aria-label') ?? one.textContent.trim();
+        // All help of fields is one component, and so are the lines of the story.
+        const kind = /^(Help: |Why: )/.exec(name)?.[0] ?? name;
+        one.removeAttribute('data-opener');
+        if (kinds.has(kind)) return [];
+        kinds.add(kind);
+        one.setAttribute('data-opener', String(at));
+        return [{ name: name.replace(/\d+$/, ''), at }];
+      });
+    });
+
+/** What a button opens: what it names, otherwise the inspector with it. */
+async function openedBy(opener: Locator) {
+  const id = await opener.getAttribute('aria-controls');
+  const page = opener.page();
+  return id ? page.locator(`[id="${id}"]`) : inspector(page);
+}
 
 /** Opens each button of `scope` that opens something, one at a time. */
 async function* popovers(page: Page, scope: Locator, within: string): AsyncGenerator<Place> {
-  const closed = scope.locator('button[aria-expanded=false]:enabled:visible');
-  const names = await closed.evaluateAll((all) =>
-    all.map((one) => one.getAttribute('aria-label') ?? one.textContent.trim()),
-  );
-  // All help of fields is one component.
-  const isHelp = (name: string) => name.startsWith('Help: ');
-  const help = names.filter(isHelp).slice(0, 1);
-  for (const name of [...names.filter((one) => !isHelp(one)), ...help]) {
-    const opener = scope.getByRole('button', { name, exact: true }).first();
+  for (const { name, at } of await markOpeners(scope)) {
+    const opener = scope.locator(`[data-opener="${at}"]`);
     const isOpen = async () => (await opener.getAttribute('aria-expanded')) === 'true';
     await opener.click();
     await openDetails(page);
-    yield { name: `${within}: ${name}`, panel: panelOf(opener), opener };
+    yield { name: `${within}: ${name}`, panel: await openedBy(opener), opener };
     // Pressing Tab may have closed it.
     if (await isOpen()) await page.keyboard.press('Escape');
     if (await isOpen()) await opener.click();
@@ -78,24 +98,51 @@ export const view = (name: string): Places =>
     yield* popovers(lab.page, lab.page.locator('body'), name);
   };
 
-/** Each tab of a tab list, and each part that buttons open in it. */
-export const tabs = (area: string): Places =>
-  async function* ({ page }) {
-    const list = page.locator(`.${area}`).getByRole('tablist');
-    const all = await list.getByRole('tab').all();
-    expect(all.length, `tabs in ${area}`).toBeGreaterThan(1);
-    for (const tab of all) {
-      const name = await tab.innerText();
-      await tab.click();
-      await openDetails(page);
-      const content = page.locator(`[id="${must(await tab.getAttribute('aria-controls'), name)}"]`);
-      yield { name, panel: panelOf(tab), opener: tab };
-      yield* popovers(page, content, name);
+/** The menu of the plots, which is there with the lanes. */
+export const plots: Places = async function* (lab) {
+  const button = lab.button('Plots');
+  await button.click();
+  await lab.drawn();
+  const lanes = lab.page.locator('.lanes');
+  yield { name: 'plots', panel: lanes, opener: button };
+  yield* popovers(lab.page, lanes, 'plots');
+  await button.click();
+};
+
+async function* panel(lab: Lab, name: string, opener: Locator): AsyncGenerator<Place> {
+  await openDetails(lab.page);
+  await lab.drawn();
+  yield { name, panel: inspector(lab.page), opener };
+  yield* popovers(lab.page, content(lab.page), name);
+}
+
+/** Each panel of the inspector, and each part that buttons open in it. */
+export const panels: Places = async function* (lab) {
+  const { page } = lab;
+  await showTabs(lab);
+  const tabs = await page.getByRole('tablist', { name: 'Inspector' }).getByRole('tab').all();
+  expect(tabs.length, 'tabs').toBeGreaterThan(1);
+  for (const tab of tabs) {
+    const name = await tab.innerText();
+    await tab.click();
+    yield* panel(lab, name, tab);
+    const parts = page.getByRole('radiogroup', { name, exact: true }).getByRole('radio');
+    for (const part of (await parts.all()).slice(1)) {
+      await part.check();
+      yield* panel(lab, `${name} ${must(await part.getAttribute('value'), 'a part')}`, part);
     }
-  };
+  }
+  await openLayers(lab);
+  yield* panel(lab, 'Layers', lab.button('Layers'));
+  await openSetUp(lab);
+  yield* panel(lab, 'Set up', setUpButton(lab));
+  await showTabs(lab);
+};
 
 export const controllers: Places = async function* (lab) {
   const { page } = lab;
+  await showTabs(lab);
+  await lab.panel('Now');
   const group = page.getByRole('radiogroup', { name: 'Controller' });
   for (const radio of await group.getByRole('radio').all()) {
     const value = must(await radio.getAttribute('value'), 'a controller');
@@ -103,7 +150,7 @@ export const controllers: Places = async function* (lab) {
     await until(value, () => lab.state.controller === value);
     await lab.button('Step').click();
     await openDetails(page);
-    yield { name: `controller ${value}`, panel: page.locator('section.panel.controller') };
+    yield { name: `controller ${value}`, panel: inspector(page) };
   }
 };
 
@@ -114,16 +161,16 @@ export const refusalsHelpAndRoles: Places = async function* (lab) {
   await lab.controller('RL');
   await lab.click(lab.wallPoint());
   await lab.notice('workspace').waitFor();
-  yield { name: 'refusal', panel: page.locator('section.panel.workspace') };
+  yield { name: 'refusal', panel: page.locator('.dock') };
   await lab.button('Help').click();
   await page.getByRole('dialog').waitFor();
   yield { name: 'keyboard', panel: page.getByRole('dialog') };
   await page.keyboard.press('Escape');
   await lab.run();
-  yield { name: 'running', panel: page.locator('footer.bar') };
+  yield { name: 'running', panel: page.locator('.dock') };
   await lab.pause();
   await lab.releaseControl();
-  yield { name: 'viewer', panel: page.locator('header.bar') };
+  yield { name: 'viewer', panel: page.locator('.top') };
 };
 
 /** A challenge that waits for its start, and an attempt that does not count. */
@@ -132,15 +179,15 @@ export const challenge: Places = async function* (lab) {
   await lab.page.getByRole('button', { name: /^Easy/ }).first().click();
   await until('a challenge', () => lab.scene.challenge);
   await lab.page.getByRole('table', { name: 'Scores on this challenge' }).waitFor();
-  yield { name: 'challenge', panel: lab.page.locator('section.panel.lower') };
+  yield { name: 'challenge', panel: inspector(lab.page) };
   await lab.button('Step').click();
   await until('it does not count', () => lab.state.attempt?.void);
-  yield { name: 'void attempt', panel: lab.page.locator('section.panel.workspace') };
+  yield { name: 'void attempt', panel: lab.page.locator('main') };
   await lab.page.getByRole('button', { name: /^(All challenges|Give up)$/ }).click();
   await until('no challenge', () => !lab.scene.challenge);
 };
 
 export const sceneView: Places = async function* (lab) {
   await openSceneView(lab);
-  yield { name: '3-D', panel: lab.page.locator('section.panel.workspace') };
+  yield { name: '3-D', panel: lab.page.locator('main') };
 };
