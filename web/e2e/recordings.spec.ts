@@ -24,7 +24,7 @@ test('lists recordings, and downloads their files', async ({ lab, session }) => 
   // That of the session is chosen.
   const chosen = lab.page.getByRole('complementary', { name: 'Chosen recording' });
   const downloading = lab.page.waitForEvent('download');
-  await chosen.getByRole('link', { name: `Download ${session.name}` }).click();
+  await chosen.getByRole('link', { name: `Download the Rerun file of ${session.name}` }).click();
   const download = await downloading;
   expect(download.suggestedFilename()).toMatch(new RegExp(`-${session.name}\\.rrd$`));
   const bytes = await readFile(await download.path());

@@ -15,14 +15,14 @@ import { nameOf, ownName } from './names';
 import { type Ending, filePath, label, size, startedAt } from './recordings';
 
 function Download(props: { file: RecordingFile; ending: Ending; words: string }): JSX.Element {
-  const what = (): string => (props.ending === 'ferry' ? 'the input log of ' : '');
+  const what = (): string => (props.ending === 'ferry' ? 'input log' : 'Rerun file');
   return (
     <a
       class="button"
       href={addressOf(filePath(props.file.id, props.ending))}
       download={`${props.file.id}.${props.ending}`}
       title={props.ending === 'ferry' ? 'Input log: “ferry replay” runs it again' : undefined}
-      aria-label={`Download ${what()}${label(props.file)}`}
+      aria-label={`Download the ${what()} of ${label(props.file)}`}
     >
       <Icon of={DownloadIcon} />
       {props.words}
@@ -77,6 +77,8 @@ function Facts(props: { file: RecordingFile }): JSX.Element {
 
 export function RecordingPanel(props: {
   file: RecordingFile;
+  /** Shown as a picture. */
+  map: string | undefined;
   isOpen: boolean;
   openerRef: (button: HTMLButtonElement) => void;
   /** Opens it in the viewer, or goes back to the list. */
@@ -89,7 +91,7 @@ export function RecordingPanel(props: {
   return (
     <aside class="inspector" aria-label="Chosen recording">
       <div class="inspector-panel recording-panel">
-        <Show when={props.file.content?.maps[0]}>{(map) => <MapPicture map={map()} />}</Show>
+        <Show when={props.map}>{(map) => <MapPicture map={map()} />}</Show>
         <Show when={renaming.isOn()} fallback={<h2>{nameOf(props.file)}</h2>}>
           <TitleForm
             {...renaming.form}
