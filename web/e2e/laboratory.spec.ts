@@ -16,6 +16,7 @@ test('delivers the bead to a clicked goal', async ({ lab }) => {
   const set = await until('a goal', () => lab.goal());
   expect(distance(set, goal)).toBeLessThan(0.002);
   await lab.deliver();
+  await expect(lab.page.locator('.status-words')).toContainText('Delivered');
 });
 
 test('fetches the bead after a drag by mouse, and delivers it', async ({ lab }) => {
@@ -23,16 +24,16 @@ test('fetches the bead after a drag by mouse, and delivers it', async ({ lab }) 
   const [goal] = lab.freePoints(await lab.bead(), 0.3, 0.5);
   await lab.setGoal(goal);
   await lab.stepUntil('transport', () => lab.state.leg_steps > 4, CONTROL_STEP_TICKS);
-  await expect(lab.page.getByTestId('phase')).toHaveText('transporting');
-  // Records every text that the mode badge shows from now on.
-  const modes = await lab.page.getByTestId('mode').evaluateHandle((badge) => {
-    const texts = [badge.textContent];
-    new MutationObserver(() => texts.push(badge.textContent)).observe(badge, {
-      characterData: true,
-      childList: true,
-      subtree: true,
+  const law = lab.page.getByRole('list', { name: /^Switching law/ });
+  await expect(law).toHaveAccessibleName('Switching law: sub-controller 2 is active');
+  // Records every sub-controller that the panel shows as active from now on.
+  const modes = await law.evaluateHandle((list) => {
+    const active = () => list.querySelector('[data-active=true]')?.getAttribute('data-mode') ?? '';
+    const shown = [active()];
+    new MutationObserver(() => shown.push(active())).observe(list, {
+      attributeFilter: ['aria-label'],
     });
-    return texts;
+    return shown;
   });
   const bead = await lab.bead();
   // Off the path to the goal: along it, the tool would not lose the bead.
@@ -50,7 +51,7 @@ test('fetches the bead after a drag by mouse, and delivers it', async ({ lab }) 
     await lab.drawn();
     return (await modes.jsonValue()).join('');
   };
-  await lab.stepUntil('both switches', async () => (await shown()).includes('212'), 25);
+  await lab.stepUntil('both switches', async () => /21+2/.test(await shown()), 25);
   await lab.deliver();
   await expect(lab.page.getByTestId('disturbances')).toHaveText('1');
 });
@@ -95,6 +96,7 @@ test('kicks the bead', async ({ lab }) => {
   await strength.press('Enter');
   await lab.stepUntil('a moved bead', () => lab.state.bead_m[0] - bead[0] > 0.02, 25);
   await expect(lab.page.getByTestId('disturbances')).toHaveText('1');
+  await lab.panel('Story');
   await expect(lab.page.getByRole('log').getByText(/a kick of 0\.80 mN·s/)).toBeVisible();
 });
 

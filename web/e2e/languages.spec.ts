@@ -1,6 +1,7 @@
 // Browsers whose language is no language tag, and browsers that are too old.
 
 import { expect, test } from './fixtures';
+import { skipFirstVisit } from './support/lab';
 
 for (const language of ['C', 'de_DE', '']) {
   test(`opens where the language is “${language}”`, async ({ page, session }) => {
@@ -8,6 +9,7 @@ for (const language of ['C', 'de_DE', '']) {
       Object.defineProperty(navigator, 'language', { value });
       Object.defineProperty(navigator, 'languages', { value: [value] });
     }, language);
+    await skipFirstVisit(page);
     await page.goto(session.url);
     await expect(page.locator('.plan-canvas')).toBeVisible();
     await page.getByRole('navigation', { name: 'Views' }).getByText('Recordings').click();

@@ -18,8 +18,12 @@ test('shows a viewer what the operator does', async ({ lab, openLab }) => {
   await lab.run();
   await until('the goal', () => viewer.state.goal_m);
   await until('a moving bead', () => distance(viewer.state.bead_m, before.bead_m) > 0.01);
-  await expect(viewer.page.getByTestId('tick')).not.toHaveText(`tick ${before.tick}`);
+  await expect(viewer.page.getByTestId('sim-time')).not.toHaveAttribute(
+    'title',
+    `Tick ${before.tick}`,
+  );
   expect(viewer.events.length).toBeGreaterThan(received);
+  await viewer.panel('Story');
   await expect(viewer.page.getByRole('log').getByText('goal placed').first()).toBeVisible();
   await expect(viewer.button('Pause')).toBeDisabled();
   await lab.button('Pause').click();
@@ -32,10 +36,12 @@ test('passes released control to the viewer that requested it', async ({ lab, op
   // A request is granted when the operator releases control.
   await viewer.button('Take control').click();
   await expect(viewer.notice('session').getByText(REQUEST_SENT)).toBeVisible();
-  await lab.page.getByTestId('asked').waitFor();
+  const give = lab.button('Give control');
+  await give.waitFor();
+  await lab.panel('Story');
   await expect(lab.page.getByRole('log').getByText(CONTROL_REQUESTED).first()).toBeVisible();
   await lab.isRole('operator');
-  await lab.releaseControl();
+  await give.click();
   await viewer.isRole('operator');
   await expect(viewer.button('Run')).toBeEnabled();
   await expect(lab.button('Run')).toBeDisabled();
