@@ -132,7 +132,11 @@ export function Page(): JSX.Element {
           />
         </Match>
         <Match when={view() === 'recordings'}>
-          <RecordingsView session={lab.session} tick={lab.state()?.tick} />
+          <RecordingsView
+            session={lab.session}
+            tick={lab.state()?.tick}
+            maps={lab.catalog.maps()}
+          />
         </Match>
         <Match when={view() === 'evaluate'}>
           <EvaluateView lab={lab} />

@@ -3,6 +3,7 @@
 import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { Check, Power, TriangleAlert } from 'lucide';
 import type { Session, Trial } from '../lab/slices';
+import { createStuck } from '../lab/stuck';
 import { Limiter } from '../net/limiter';
 import { loggedOut } from '../net/access';
 import { Glyph } from '../ui/Glyph';
@@ -31,9 +32,14 @@ function Reload(props: { label: string; title: string }): JSX.Element {
 
 export function StatusPill(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
-  const now = createMemo(() => statusOf(lab.connection(), lab.ended(), lab.state()), undefined, {
-    equals: (a, b) => a.text === b.text && a.more === b.more && a.controller === b.controller,
-  });
+  const isStuck = createStuck(lab);
+  const now = createMemo(
+    () => statusOf(lab.connection(), lab.ended(), lab.state(), isStuck()),
+    undefined,
+    {
+      equals: (a, b) => a.text === b.text && a.more === b.more && a.controller === b.controller,
+    },
+  );
   const [shown, setShown] = createSignal<Status>(now());
   const limiter = new Limiter<Status>(EVERY_MS, setShown);
   createEffect(on(now, (status) => limiter.offer(status), { defer: true }));

@@ -41,7 +41,7 @@ function connectionStatus(connection: ConnectionState): Status | undefined {
 
 const capital = (words: string): string => words.charAt(0).toUpperCase() + words.slice(1);
 
-function runningStatus(state: StateMessage): Status {
+function runningStatus(state: StateMessage, isStuck: boolean): Status {
   const { controller, phase, refusal, trouble } = state;
   const name = controllerLabel({ controller, program: state.program?.name ?? null });
   const whose = { controller };
@@ -63,6 +63,7 @@ function runningStatus(state: StateMessage): Status {
         more: `${centimetres(state.tracked_error_m)} away`,
       });
     case 'transporting':
+      if (isStuck) return bad(`${name} is stuck`, { ...whose, more });
       return controller === 'you'
         ? plain('You carry the bead', { ...whose, more })
         : plain(`${name} carries the bead to the goal`, {
@@ -85,6 +86,7 @@ export function statusOf(
   connection: ConnectionState,
   ended: EndFact | undefined,
   state: StateMessage | undefined,
+  isStuck: boolean,
 ): Status {
   if (ended) return bad(endWords(ended).replace(/\.$/, ''), { short: 'The session has ended' });
   const trouble = connectionStatus(connection);
@@ -98,7 +100,7 @@ export function statusOf(
     phase.code === 'stopped' ||
     phase.code === 'lifted_off'
   )
-    return runningStatus(state);
+    return runningStatus(state, isStuck);
   return plain(state.tick === 0 ? 'Ready to run' : 'Paused', { controller: state.controller });
 }
 

@@ -3,6 +3,7 @@
 import { createEffect, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
 import { attachInput } from './input';
 import type { Interaction, Surface } from './interaction';
+import { Moments } from './Moments';
 import type { ByHand, Session, Trial } from '../lab/slices';
 import { onSize, type Size } from '../ui/size';
 import type { ViewPicture } from './viewPicture';
@@ -60,14 +61,17 @@ export function ViewCanvas(props: {
   };
 
   return (
-    <canvas
-      ref={canvas}
-      class={`stage-canvas ${props.class}`}
-      tabindex="0"
-      role="application"
-      aria-label={props.label}
-      aria-describedby={props.helpId}
-      data-cursor={cursorName()}
-    />
+    <>
+      <canvas
+        ref={canvas}
+        class={`stage-canvas ${props.class}`}
+        tabindex="0"
+        role="application"
+        aria-label={props.label}
+        aria-describedby={props.helpId}
+        data-cursor={cursorName()}
+      />
+      <Moments lab={lab} interaction={interaction} />
+    </>
   );
 }
