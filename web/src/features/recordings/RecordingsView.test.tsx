@@ -4,6 +4,8 @@ import { type Answers, fakeServer, refusal, show } from '../../lab/testingLab';
 import type { RecordingFile, RecordingTitle } from '../../net/protocol.gen';
 import RecordingsView from './RecordingsView';
 
+const content = { maps: [], controllers: [], delivered: 0, not_delivered: 0, duration_s: 0 };
+
 const recordingOf = (session: string, change: Partial<RecordingFile> = {}): RecordingFile => ({
   id: `1-${session}`,
   session,
@@ -12,7 +14,7 @@ const recordingOf = (session: string, change: Partial<RecordingFile> = {}): Reco
   log_bytes: null,
   live: false,
   title: null,
-  content: { maps: [], controllers: [], delivered: 0, not_delivered: 0, duration_s: 0 },
+  content,
   ...change,
 });
 
@@ -36,7 +38,7 @@ function open(...names: string[]) {
     };
   }
   fakeServer(answers);
-  show(() => <RecordingsView session="other" tick={0} />);
+  show(() => <RecordingsView session="other" tick={0} maps={['posts']} />);
 }
 
 it('names a recording, also on a phone', async () => {
@@ -95,4 +97,14 @@ it('deletes a recording after a question', async () => {
   await row('live').getByRole('button').click();
   await expect.element(chosen.getByRole('button', { name: /^Rename / })).toBeVisible();
   expect(chosen.getByRole('button', { name: /^Delete / }).elements()).toEqual([]);
+});
+
+it('asks for no picture of a map that the server does not have', async () => {
+  const on = (map: string) => recordingOf(map, { content: { ...content, maps: [map] } });
+  fakeServer({ 'GET /api/recordings': () => ({ recordings: [on('posts'), on('deleted')] }) });
+  show(() => <RecordingsView session="other" tick={0} maps={['posts']} />);
+  const picture = (map: string) => row(map).element().querySelector('.map-picture span');
+  await expect.element(row('posts')).toBeVisible();
+  expect(picture('posts')).not.toBeNull();
+  expect(picture('deleted')).toBeNull();
 });

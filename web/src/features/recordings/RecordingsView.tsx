@@ -21,6 +21,8 @@ export default function RecordingsView(props: {
   session: string;
   /** Its tick: it is recorded while it moves. */
   tick: number | undefined;
+  /** The maps of the server; undefined before it has sent them. */
+  maps: readonly string[] | undefined;
 }): JSX.Element {
   const { list, error, refresh, rename, discard } = createRecordings(() => props.tick);
   const [open, setOpen] = createSignal<RecordingFile>();
@@ -29,6 +31,9 @@ export default function RecordingsView(props: {
   let rows: HTMLTableSectionElement | undefined;
   let refresher!: HTMLButtonElement;
   let opener: HTMLButtonElement | undefined;
+  /** The map of a recording, unless it is of another server or was deleted. */
+  const mapOf = ({ content }: RecordingFile): string | undefined =>
+    props.maps?.find((map) => map === content?.maps[0]);
   const isOwn = ({ session }: RecordingFile): boolean => session === props.session;
   /** The newest of the page's session, until another one is chosen. */
   const chosen = createMemo(() => {
@@ -99,6 +104,7 @@ export default function RecordingsView(props: {
                       {(file) => (
                         <Row
                           file={file()}
+                          map={mapOf(file())}
                           isOwn={isOwn(file())}
                           isChosen={chosen()?.id === file().id}
                           onChoose={() => setChoice(file().id)}
@@ -127,6 +133,7 @@ export default function RecordingsView(props: {
             {(file) => (
               <RecordingPanel
                 file={file()}
+                map={mapOf(file())}
                 isOpen={open()?.id === id}
                 openerRef={(button) => {
                   opener = button;

@@ -11,6 +11,8 @@ import { size, startedAt } from './recordings';
 
 export function Row(props: {
   file: RecordingFile;
+  /** Shown as a picture. */
+  map: string | undefined;
   /** Whether it is of the page's session. */
   isOwn: boolean;
   isChosen: boolean;
@@ -31,7 +33,7 @@ export function Row(props: {
     >
       <th scope="row">
         <button type="button" class="recording">
-          <MapPicture map={props.file.content?.maps[0]} />
+          <MapPicture map={props.map} />
           <span>
             <span class="recording-name">{nameOf(props.file)}</span>
             <Show when={props.isOwn}>
