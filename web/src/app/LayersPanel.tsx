@@ -7,7 +7,9 @@ import { MarksKey } from '../features/marks/MarksKey';
 import { LayerSwatch } from './LayerSwatch';
 import './LayersPanel.css';
 
-export function LayersPanel(props: PanelProps & { layers: readonly LiveLayer[] }): JSX.Element {
+export default function LayersPanel(
+  props: PanelProps & { layers: readonly LiveLayer[] },
+): JSX.Element {
   // Topmost layer first.
   const menu = props.layers.toReversed();
   return (

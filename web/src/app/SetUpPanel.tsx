@@ -10,7 +10,7 @@ import { PresetSelect } from '../features/share/PresetSelect';
 import { Seed } from '../features/setup/Seed';
 import './SetUpPanel.css';
 
-export function SetUpPanel(
+export default function SetUpPanel(
   props: PanelProps & {
     links: PageExperiment;
     opener: MapOpener;

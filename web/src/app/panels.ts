@@ -9,9 +9,7 @@ import { lazyPanel } from '../lab/panel';
 import type { Lab } from '../lab/slices';
 import type { Picker } from '../plan/interaction';
 import type { LiveLayer } from '../plan/layer';
-import { LayersPanel } from './LayersPanel';
 import { NowPanel } from './NowPanel';
-import { SetUpPanel } from './SetUpPanel';
 
 /** What panels get beside the laboratory. */
 export interface PageParts {
@@ -81,8 +79,16 @@ export const TABS: readonly Tab[] = [
 ];
 
 export const EXTRA_PANELS: readonly Panel[] = [
-  { name: 'setup', title: 'Set up', panel: SetUpPanel },
-  { name: 'layers', title: 'Layers', panel: LayersPanel },
+  {
+    name: 'setup',
+    title: 'Set up',
+    panel: lazyPanel(() => import('./SetUpPanel')),
+  },
+  {
+    name: 'layers',
+    title: 'Layers',
+    panel: lazyPanel(() => import('./LayersPanel')),
+  },
 ];
 
 export const tabOf = (panel: PanelName): Tab | undefined =>
