@@ -1,7 +1,7 @@
 // The stage: the map or the 3-D view, with a band above and below it. A click sets the goal; dragging the bead disturbs it.
 
 import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-js';
-import { CircleQuestionMark } from 'lucide';
+import { CircleQuestionMark, Maximize } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
 import { CameraView } from '../features/steer/CameraView';
 import { TipBar } from '../features/tips/TipBar';
@@ -84,7 +84,12 @@ export function Stage(props: {
   };
 
   return (
-    <main ref={stage} class="stage" data-mode={isScene() ? 'scene' : 'plan'}>
+    <main
+      ref={stage}
+      class="stage"
+      data-mode={isScene() ? 'scene' : 'plan'}
+      data-fills={lab.fills()}
+    >
       <div class="map-box" classList={{ lifted: isLifted() }}>
         <Show
           when={lab.sight() === 'camera'}
@@ -169,6 +174,12 @@ export function Stage(props: {
             )}
           </Show>
         </output>
+        <Show when={!isScene()}>
+          <button type="button" class="ghost small fill" title="Fill (F)" onClick={lab.toggleFill}>
+            <Icon of={Maximize} />
+            Fill
+          </button>
+        </Show>
         <button
           type="button"
           class="ghost small"

@@ -22,6 +22,10 @@ export interface Panels {
   readonly closePanel: () => void;
   /** Hides the inspector, or shows its last panel again. */
   readonly toggleInspector: () => void;
+  /** Whether the map fills its place; nothing else enlarges it. */
+  readonly fills: Accessor<boolean>;
+  /** Fills it without the inspector, or ends that. */
+  readonly toggleFill: () => void;
 }
 
 export function createPanels(): Panels {
@@ -31,7 +35,9 @@ export function createPanels(): Panels {
   // On a phone it is a sheet over the map, and closed at first.
   const [sheet, setSheet] = createSignal(false);
   const isShown = (): boolean => (isPhone() ? sheet() : inspector() === 'shown');
+  const [fills, setFills] = createSignal(false);
   const show = (shown: boolean): void => {
+    setFills(false);
     if (isPhone()) setSheet(shown);
     else setInspector(shown ? 'shown' : 'hidden');
   };
@@ -48,6 +54,12 @@ export function createPanels(): Panels {
     },
     toggleInspector: () => {
       show(!isShown());
+    },
+    fills,
+    toggleFill: () => {
+      const next = !fills();
+      if (next) show(false);
+      setFills(next);
     },
   };
 }

@@ -2,9 +2,9 @@ import { toggleLanes } from '../../lab/lanes';
 import type { FeatureShortcuts } from '../../lab/shortcuts';
 import { nextSpeed, ticksToControlStep } from './steps';
 import { hintAtGoal, runOrPause } from './run';
-import type { Addressed, Notices, Session, Trial } from '../../lab/slices';
+import type { Addressed, Notices, Panels, Session, Trial } from '../../lab/slices';
 
-export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices & Addressed> = (
+export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices & Addressed & Panels> = (
   lab,
   operate,
 ) => {
@@ -55,5 +55,6 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices & Addres
         if (lab.address.view() === 'laboratory') toggleLanes();
       },
     },
+    { group: 'Workspace', keys: ['f'], does: 'let the map fill its place', run: lab.toggleFill },
   ];
 };
