@@ -1,9 +1,10 @@
 // The controls of the page by mouse, keyboard and touch. e2e/controls lists what each changes.
 
+import { PHONE as PHONE_CONTROLS } from './controls/phone';
 import { exercise, sectionsFor } from './controls/table';
 import type { Section } from './controls/row';
 import { DAILY, LONG, type Lab, test } from './fixtures';
-import { DESKTOP, TABLET } from './support/browser';
+import { DESKTOP, PHONE, TABLET } from './support/browser';
 import { INPUT_METHODS, type InputMethod } from './support/inputMethods';
 
 /** Costly by mouse. */
@@ -50,3 +51,11 @@ for (const [name, Method] of Object.entries(INPUT_METHODS)) {
     }
   });
 }
+
+test.describe('on a phone', () => {
+  test.use({ ...PHONE, hasTouch: true });
+
+  test('each control of the foot works by touch', async ({ lab }) => {
+    await exerciseAll(lab, new INPUT_METHODS.touch(lab), PHONE_CONTROLS);
+  });
+});

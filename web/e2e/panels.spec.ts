@@ -1,51 +1,113 @@
-// The first visit shows the workspace, the controller and Run. The other panels open on demand and stay as they were left.
+// The inspector: one panel at a time, which stays as it was left. No panel changes the scale of the map.
 
 import type { Page } from '@playwright/test';
 import { Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
+import { panels, plots } from './support/places';
+import { must } from './support/wait';
 
-const PANELS = ['Camera', 'Beside the workspace', 'Below the workspace'];
-const fold = (page: Page, name: string) => page.getByRole('button', { name, exact: true });
-const area_px = async (page: Page, selector: string) => {
-  const box = await page.locator(selector).boundingBox();
-  return box ? box.width * box.height : 0;
-};
+const scale = (lab: Lab) => lab.canvas.getAttribute('data-px-per-m');
+const widthOf = async (page: Page) =>
+  must(await page.locator('.inspector').boundingBox(), 'the inspector').width;
 
 test('opens panels on demand, and keeps them', async ({ page, session }) => {
   const lab = await Lab.attach(page, session.url);
-  for (const name of PANELS) {
-    await expect(fold(page, name)).toHaveAttribute('aria-expanded', 'false');
-  }
+  const camera = lab.button('Camera');
+  await expect(lab.tab('Now')).toHaveAttribute('aria-selected', 'true');
+  await expect(camera).toHaveAttribute('aria-expanded', 'false');
   await expect(page.getByLabel('Threshold T')).toHaveCount(0);
   const observation = page.getByRole('img', { name: /^Observation/ }).first();
   await expect(observation).toHaveCount(0);
   await expect(lab.button('Run')).toBeVisible();
   expect(await violations(page)).toEqual([]);
   expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
-  const before = await area_px(page, '.workspace');
 
-  await fold(page, 'Camera').click();
+  await camera.click();
   await expect(observation).toBeVisible();
   await expect(page.getByText('No image yet')).toHaveCount(0);
-  // A tab opens its panel.
-  await page.getByRole('tab', { name: 'Tune' }).click();
+  await lab.tab('Tune').click();
   await expect(page.getByLabel('Threshold T').first()).toBeVisible();
-  expect(await area_px(page, '.workspace')).toBeLessThan(before);
+  await expect(observation).toHaveCount(0);
 
   await page.reload();
   await lab.live();
-  for (const [name, open] of [
-    ['Beside the workspace', 'false'],
-    ['Below the workspace', 'true'],
-  ] as const) {
-    await expect(fold(page, name)).toHaveAttribute('aria-expanded', open);
-  }
   await expect(page.getByRole('tabpanel', { name: 'Tune' })).toBeVisible();
   await lab.panel('Now');
-  await expect(fold(page, 'Camera')).toHaveAttribute('aria-expanded', 'true');
-  for (const name of ['Camera', 'Below the workspace']) {
-    await fold(page, name).click();
+  await expect(camera).toHaveAttribute('aria-expanded', 'true');
+  await camera.click();
+
+  await lab.button('Hide the panel').click();
+  await page.reload();
+  await lab.live();
+  await expect(page.locator('.inspector')).toHaveCount(0);
+  await lab.button('Show the panel').click();
+  await expect(page.getByRole('tabpanel', { name: 'Now' })).toBeVisible();
+});
+
+test('a panel of the top bar gives the last tab back', async ({ lab }) => {
+  await lab.panel('Story');
+  for (const name of ['Layers', 'Set up']) {
+    if (name === 'Layers') await lab.button('Layers').click();
+    else await lab.setUp();
+    await expect(lab.page.getByRole('heading', { name, exact: true })).toBeVisible();
+    await expect(lab.page.getByRole('tablist')).toHaveCount(0);
+    await lab.button('Close').click();
+    await expect(lab.tab('Story')).toHaveAttribute('aria-selected', 'true');
   }
-  await expect.poll(() => area_px(page, '.workspace')).toBe(before);
+});
+
+for (const [width, height] of [
+  [1280, 800],
+  [1920, 1080],
+] as const) {
+  test(`nothing that opens changes the scale of the map at ${width}×${height}`, async ({ lab }) => {
+    const { page } = lab;
+    await page.setViewportSize({ width, height });
+    await lab.reset();
+    const before = must(await scale(lab), 'the scale');
+    const map = must(await lab.canvas.boundingBox(), 'the map');
+    for (const places of [panels, plots]) {
+      for await (const { name } of places(lab)) {
+        expect(await scale(lab), name).toBe(before);
+        const { x, width: now } = must(await lab.canvas.boundingBox(), name);
+        expect([x, now], name).toEqual([map.x, map.width]);
+      }
+    }
+    // The map is then in the middle.
+    await lab.button('Hide the panel').click();
+    await expect
+      .poll(async () => must(await lab.canvas.boundingBox(), 'the map').x)
+      .toBeGreaterThan(map.x);
+    expect(await scale(lab)).toBe(before);
+  });
+}
+
+test('the inspector is as wide as its user made it', async ({ lab }) => {
+  const { page } = lab;
+  await page.setViewportSize({ width: 1600, height: 800 });
+  await lab.drawn();
+  const before = await widthOf(page);
+  const drag = async (by: number) => {
+    const { x, y, width, height } = await lab.boxOf(page.locator('.inspector-edge'));
+    const at = [x + width / 2, y + height / 2] as const;
+    await page.mouse.move(...at);
+    await page.mouse.down();
+    await page.mouse.move(at[0] + by, at[1], { steps: 4 });
+    await page.mouse.up();
+  };
+  const shown = await scale(lab);
+  await drag(-80);
+  await expect.poll(() => widthOf(page)).toBeCloseTo(before + 80, -1);
+  expect(await scale(lab)).toBe(shown);
+  await page.reload();
+  await lab.live();
+  expect(await widthOf(page)).toBeCloseTo(before + 80, -1);
+  // The map keeps its room, and the inspector enough for its text.
+  await drag(-1000);
+  expect(await scale(lab)).toBe(shown);
+  await drag(1200);
+  await expect.poll(() => widthOf(page)).toBe(300);
+  await page.locator('.inspector-edge').dblclick();
+  await expect.poll(() => widthOf(page)).toBe(before);
 });

@@ -9,6 +9,7 @@ import { DRAW } from './draw';
 import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
 import { EXPERIMENTS, LAYERS, PLAYBACK, VIEWS, WORKSPACE } from './laboratory';
 import { PARAMETERS, PRESETS, SOME_PARAMETERS } from './parameters';
+import { PHONE } from './phone';
 import { RECOVERY } from './recovery';
 import type { Row, Section } from './row';
 import { STEER } from './steer';
@@ -129,9 +130,9 @@ export async function exercise(input: InputMethod, key: string, row: Row) {
   await row.after?.(lab, input);
 }
 
-const ROWS = Object.values(SECTIONS_BY_TEST)
-  .flat()
-  .flatMap(({ rows }) => Object.keys(rows).map((key) => ({ key, ...parse(key) })));
+const ROWS = [...Object.values(SECTIONS_BY_TEST).flat(), PHONE].flatMap(({ rows }) =>
+  Object.keys(rows).map((key) => ({ key, ...parse(key) })),
+);
 
 /** Whether the table has a row for this control. */
 export function hasRow(control: { key: string; role: string; name: string }) {

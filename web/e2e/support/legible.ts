@@ -84,7 +84,7 @@ function inPage() {
     // What is out of a part that scrolls, and what is below a part that stays in sight.
     const scroller = area.closest('.inspector-panel, .view, .popover, dialog, .scrolls');
     if (scroller && !scroller.contains(hit)) continue;
-    if (hit.closest('.popover, .help-text, dialog') || isSticky(hit)) continue;
+    if (hit.closest('.popover, .help-text, .notice, dialog') || isSticky(hit)) continue;
     const name = control.getAttribute('aria-label') ?? control.textContent;
     faults.add(`${words(name)} is covered by ${words(hit.outerHTML.slice(0, 80))}`);
   }

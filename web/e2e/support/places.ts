@@ -3,7 +3,14 @@
 
 import { type Locator, type Page, expect } from '@playwright/test';
 import type { Lab } from './lab';
-import { openLayers, openSceneView, openSetUp, setUpButton, showTabs } from './preconditions';
+import {
+  ensureNoGoal,
+  openLayers,
+  openSceneView,
+  openSetUp,
+  setUpButton,
+  showTabs,
+} from './preconditions';
 import { must, until } from './wait';
 
 /** So that the timeline has a history. */
@@ -166,6 +173,9 @@ export const refusalsHelpAndRoles: Places = async function* (lab) {
   await page.getByRole('dialog').waitFor();
   yield { name: 'keyboard', panel: page.getByRole('dialog') };
   await page.keyboard.press('Escape');
+  await lab.notice('workspace').getByRole('button', { name: 'Dismiss' }).click();
+  // Without a goal nothing happens that would add marks to the timeline.
+  await ensureNoGoal(lab);
   await lab.run();
   yield { name: 'running', panel: page.locator('.dock') };
   await lab.pause();
