@@ -14,6 +14,12 @@ async function textOf(lab: Lab, part: string) {
   return must(await pictureOf(lab, part).getAttribute('aria-label'), part);
 }
 
+/** Shows the lanes. A reload keeps them. */
+async function showLanes(lab: Lab) {
+  const button = lab.button('Plots');
+  if ((await button.getAttribute('aria-pressed')) === 'false') await button.click();
+}
+
 async function openMenu(lab: Lab) {
   const button = lab.button('More about plots');
   if ((await button.getAttribute('aria-expanded')) === 'false') await button.click();
@@ -34,7 +40,7 @@ async function csvRows(lab: Lab) {
 
 test("plots the paper's figure, and saves it", async ({ lab }) => {
   const { page } = lab;
-  await lab.button('Plots').click();
+  await showLanes(lab);
   await lab.reset();
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.25, 0.4)[0]);
   // In small steps: the plots have a point for each state that comes.
@@ -82,7 +88,7 @@ test('has the course from the start without gaps, also after a reload and a step
 }) => {
   const { page } = lab;
   const ticks = async () => {
-    await lab.button('Plots').click();
+    await showLanes(lab);
     const [, ...rows] = await csvRows(lab);
     return rows.map((row) => Number(row.split(',')[0]));
   };

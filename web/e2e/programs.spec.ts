@@ -53,14 +53,14 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   await expect(lab.page.getByTestId('program-standing')).toHaveText(/^straight answers in \d+ ms/);
 
   // Compared with the others from here, and evaluated beside them.
-  await lab.page.getByRole('tab', { name: 'Compare' }).click();
+  await lab.panel('Compare');
   await expect(lab.page.getByLabel('Compare straight')).toBeChecked();
   await lab.page.getByLabel('Compare RL').uncheck();
   await lab.page.getByRole('button', { name: /^Compare from/ }).click();
   const compared = lab.page.getByRole('row', { name: /^straight/ });
   await expect(compared).toContainText('delivered', { timeout: RUN_MS });
   await lab.view('Evaluate').click();
-  const form = lab.page.getByRole('region', { name: 'New evaluation' });
+  const form = lab.page.getByRole('complementary', { name: 'New evaluation' });
   await form.getByLabel('straight', { exact: true }).check();
   for (const other of ['RL', 'colon', '3']) await form.getByLabel(other, { exact: true }).uncheck();
   await form.getByLabel('open', { exact: true }).check();
@@ -71,6 +71,7 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   const row = lab.page.getByTestId('evaluation-row').filter({ hasText: 'straight' });
   await expect(row).toContainText('2/2', { timeout: RUN_MS });
   await lab.view('Lab').click();
+  await lab.panel('Now');
 
   await disconnect();
   await lab.click(must(lab.freePoints(await lab.bead(), 0.1, 0.15).at(-1), 'another goal'));

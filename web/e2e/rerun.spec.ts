@@ -43,8 +43,8 @@ test('opens a recording in Rerun’s viewer', async ({ lab, session, server, wat
   await expect(body).toHaveAttribute('data-timeline', 'recording_time', { timeout: VIEWER_MS });
   await expect(body).toHaveAttribute('data-time', '0', { timeout: VIEWER_MS });
   // The file opens before the viewer is completely drawn. When it is, its bar keeps one colour.
-  const light = lab.button('Use light colours');
-  const dark = lab.button('Use dark colours');
+  const light = lab.button('Light');
+  const dark = lab.button('Dark');
   await light.click();
   const bright = await steadyBarPixel(lab);
   await dark.click();

@@ -40,6 +40,7 @@ test('returns to what a rewind and a reset have left behind', async ({ lab }) =>
   const marks = page.getByRole('toolbar', { name: 'Events in time' });
   await expect(marks.getByRole('button').first()).toBeVisible();
   // Its lines in the list of events lead to their stories again.
+  await lab.panel('Story');
   const delivery = page.getByRole('log').getByRole('button', { name: /^Why: Delivered/ });
   await expect(delivery).toHaveCount(1);
 });

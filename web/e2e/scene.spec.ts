@@ -142,9 +142,9 @@ test('frees the graphics memory of the 3-D view', async ({ lab }) => {
   const first = await gpuObjects(lab);
   await lab.reset({ map: 'colon' });
   await settled(lab);
-  await lab.button('Use light colours').click();
+  await lab.button('Light').click();
   await settled(lab);
-  await lab.button('Use dark colours').click();
+  await lab.button('Dark').click();
   await lab.reset();
   await until(`no more than ${first.join()}`, async () => !grew(await gpuObjects(lab), first));
 

@@ -92,6 +92,7 @@ test('loads a linked experiment at once for the operator', async ({ lab }) => {
 });
 
 test('loads a preset', async ({ lab }) => {
+  await lab.setUp();
   const selected = lab.label('Preset').locator('option:checked');
   await expect(selected).toHaveText('Preset…');
   await lab.label('Preset').selectOption(PRESET);
@@ -101,6 +102,8 @@ test('loads a preset', async ({ lab }) => {
   );
   expect(lab.scene.scenario.script.length, 'kicks').toBe(4);
   await expect(selected).toHaveText(PRESET);
+  await lab.setUp();
   await lab.restoreDefaults();
+  await lab.setUp();
   await expect(selected).toHaveText('Preset…');
 });

@@ -74,7 +74,7 @@ test('does not move when messages arrive one by one', async ({ page, session }) 
     });
   });
   const lab = await Lab.attach(page, session.url);
-  await lab.page.getByTestId('phase').getByText(/./).waitFor();
+  await lab.page.locator('.status-words').getByText('Ready to run').waitFor();
   await delay(10 * SLOW_FRAME_MS);
   const { cls, worst } = await shiftOf(page);
   expect(cls, worst.join('\n')).toBeLessThan(MAX_SHIFT);
@@ -102,7 +102,7 @@ test('does not move while a session runs', LONG, async ({ page, session, openLab
   await until('transport', () => lab.state.leg_steps > 4);
   const other = await openLab();
   await other.button('Take control').click();
-  await lab.page.getByTestId('asked').waitFor();
+  await lab.button('Give control').waitFor();
   // Otherwise it gets control when this page sends nothing for 30 s.
   await other.page.close();
   await lab.delivered(1);
@@ -148,7 +148,7 @@ test('does not move when something happens', LONG, async ({ page, session, openL
     await lab.page.getByRole('status', { name: 'Not delivered' }).waitFor();
     const other = await openLab();
     await other.button('Take control').click();
-    await lab.page.getByTestId('asked').waitFor();
+    await lab.button('Give control').waitFor();
     await other.page.close();
     await runLink(lab, LIFTS);
     await until('the lift-off', () => lab.events.some(({ kind }) => kind === 'lift_off'));
