@@ -1,7 +1,7 @@
 // The dock: plots, the time line, and what acts on time: run, who steers, disturb.
 
 import { Show, type JSX } from 'solid-js';
-import { Activity, HandGrab, Radio } from 'lucide';
+import { Activity, Eye, HandGrab, Radio } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
 import { SteeredBy } from '../features/controller/SteeredBy';
 import { Timeline } from '../features/playback/Timeline';
@@ -11,6 +11,7 @@ import { hasLanes, toggleLanes } from '../lab/lanes';
 import { lazyPanel } from '../lab/panel';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Lab } from '../lab/slices';
+import { takeControl } from '../lab/takeControl';
 import { createTimeAxis, type TimeAxis } from '../lab/timeAxis';
 import { clock } from '../ui/format';
 import { Icon } from '../ui/Icon';
@@ -60,10 +61,27 @@ function Cursors(props: { lab: Lab; axis: TimeAxis }): JSX.Element {
   );
 }
 
+/** In place of the transport: why a viewer cannot act, and what can be done. */
+function Watching(props: { lab: Lab }): JSX.Element {
+  return (
+    <div class="transport watching">
+      <p>
+        <Icon of={Eye} />
+        <strong>You are watching.</strong>
+        <span>Another browser steers. Look around freely.</span>
+      </p>
+      <button type="button" class="primary" onClick={() => void takeControl(props.lab)}>
+        Take control
+      </button>
+    </div>
+  );
+}
+
 export function Dock(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
   const axis = createTimeAxis(lab);
   const disturbs = (): boolean => lab.panel() === 'disturb';
+  const watches = (): boolean => lab.connection().kind === 'live' && lab.hello()?.role === 'viewer';
   const tick = (): string => `Tick ${lab.state()?.tick ?? 0}`;
   return (
     <footer class="dock" role="region" aria-label="Playback">
@@ -87,37 +105,39 @@ export function Dock(props: { lab: Lab }): JSX.Element {
           <Live lab={lab} />
         </div>
       </div>
-      <div class="transport">
-        <Transport lab={lab} />
-        <Show when={isPhone() && lab.contest.attempt()} fallback={<SteeredBy lab={lab} />}>
-          <StageBar lab={lab} />
-        </Show>
-        <div class="dock-tools">
-          <button
-            type="button"
-            aria-pressed={disturbs()}
-            disabled={!lab.canOperate()}
-            onClick={() => {
-              if (disturbs()) lab.closePanel();
-              else lab.showPanel('disturb');
-            }}
-          >
-            <Icon of={HandGrab} />
-            <span>Disturb</span>
-          </button>
-          <button
-            type="button"
-            aria-label="Plots"
-            aria-pressed={hasLanes()}
-            title="Plots (P)"
-            onClick={toggleLanes}
-          >
-            <Icon of={Activity} />
-            <span>Plots</span>
-          </button>
-          <KeptRuns lab={lab} />
+      <Show when={!watches()} fallback={<Watching lab={lab} />}>
+        <div class="transport">
+          <Transport lab={lab} />
+          <Show when={isPhone() && lab.contest.attempt()} fallback={<SteeredBy lab={lab} />}>
+            <StageBar lab={lab} />
+          </Show>
+          <div class="dock-tools">
+            <button
+              type="button"
+              aria-pressed={disturbs()}
+              disabled={!lab.canOperate()}
+              onClick={() => {
+                if (disturbs()) lab.closePanel();
+                else lab.showPanel('disturb');
+              }}
+            >
+              <Icon of={HandGrab} />
+              <span>Disturb</span>
+            </button>
+            <button
+              type="button"
+              aria-label="Plots"
+              aria-pressed={hasLanes()}
+              title="Plots (P)"
+              onClick={toggleLanes}
+            >
+              <Icon of={Activity} />
+              <span>Plots</span>
+            </button>
+            <KeptRuns lab={lab} />
+          </div>
         </div>
-      </div>
+      </Show>
     </footer>
   );
 }

@@ -3,14 +3,13 @@
 import { Show, createEffect, onCleanup, type JSX } from 'solid-js';
 import { Ellipsis, LogOut, Presentation } from 'lucide';
 import { takeControl } from '../lab/takeControl';
-import type { Session, Trial } from '../lab/slices';
+import type { Addressed, Notices, Session, Trial } from '../lab/slices';
 import { addressOf, pathOf } from '../net/base';
 import type { RecordingFact } from '../net/protocol.gen';
 import { MAIN } from '../net/session';
 import { Icon } from '../ui/Icon';
 import { createPopover } from '../ui/popover';
 import { recordingWords } from '../words/facts';
-import type { Notices } from '../lab/slices';
 import '../ui/Fact.css';
 import './MoreMenu.css';
 
@@ -29,11 +28,13 @@ function nameTab(session: string): void {
   });
 }
 
-export function MoreMenu(props: { lab: Session & Trial & Notices }): JSX.Element {
+export function MoreMenu(props: { lab: Session & Trial & Notices & Addressed }): JSX.Element {
   const { lab } = props;
   const popover = createPopover('more');
   if (lab.session !== MAIN) nameTab(lab.session);
   const isOperator = (): boolean => lab.hello()?.role === 'operator';
+  /** In the laboratory, the dock has the button. */
+  const takes = (): boolean => !isOperator() && lab.address.view() !== 'laboratory';
   const isLive = (): boolean => lab.connection().kind === 'live';
   const link = (): string => (lab.ended() ? 'ended' : lab.connection().kind);
   const recording = () => lab.state()?.recording;
@@ -45,7 +46,7 @@ export function MoreMenu(props: { lab: Session & Trial & Notices }): JSX.Element
       data-link={link()}
       data-role={lab.hello()?.role}
     >
-      <Show when={isLive() && lab.hello() && (!isOperator() || lab.hello()?.asked)}>
+      <Show when={isLive() && lab.hello() && (takes() || lab.hello()?.asked)}>
         <button
           type="button"
           class="primary"
