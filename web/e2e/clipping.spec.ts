@@ -73,7 +73,10 @@ test('no menu covers the map, or the button that opens it', async ({ lab }) => {
       await button.click();
       const menu = page.locator(`#${id}`);
       await expect(menu).toBeVisible();
-      expect(await overMap(lab, menu), `${id}, ${inspector}`).toBeLessThanOrEqual(0);
+      // The map glides.
+      await expect
+        .poll(() => overMap(lab, menu), { message: `${id}, ${inspector}` })
+        .toBeLessThanOrEqual(0);
       expect(await outside(menu, page.locator('html')), id).toBeLessThanOrEqual(0);
       await button.click();
       await expect(menu).toHaveCount(0);
