@@ -3,14 +3,13 @@
 // Imported first, so that the panels' styles override it.
 import './Page.css';
 import { Match, Show, Switch, createEffect, createSignal, type JSX } from 'solid-js';
-import { VIEWS } from '../lab/address';
+import { type View, VIEWS } from '../lab/address';
 import { createLab } from '../lab/lab';
 import { followChallengeLink } from '../lab/pageChallenge';
 import { createPageExperiment } from '../lab/pageExperiment';
 import { createCapture } from '../features/export/capture';
 import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
-import { fillIn } from '../features/evaluate/draft';
 import { Dock } from './Dock';
 import { FirstVisit } from './FirstVisit';
 import { createFirstVisit } from './visit';
@@ -27,7 +26,6 @@ import { createLayers } from '../plan/layer';
 import { createChoice } from '../ui/storage';
 import { LiveRegion } from './LiveRegion';
 import { createMapOpener } from '../features/maps/opener';
-import { showMap } from '../features/train/state';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
 import { ShareButton } from '../features/share/ShareButton';
 import { onFileDrop } from '../ui/fileDrop';
@@ -56,6 +54,11 @@ export function Page(): JSX.Element {
     document.title = view() === 'laboratory' ? 'Ferry' : `${VIEWS[view()]} – Ferry`;
     if (address.lesson() !== undefined) lab.showPanel('learn');
   });
+  /** Opens a view with its form filled in. Without its code it says so itself. */
+  const showFilled = async (name: View, fillIn: () => Promise<void>): Promise<void> => {
+    await fillIn().catch(() => undefined);
+    address.show(name);
+  };
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
@@ -111,10 +114,10 @@ export function Page(): JSX.Element {
               layers,
               links,
               opener,
-              onTrain: () => {
-                showMap();
-                address.show('train');
-              },
+              onTrain: () =>
+                void showFilled('train', async () => {
+                  (await import('../features/train/state')).showMap();
+                }),
             }}
             above={<FailureCard lab={lab} />}
           />
@@ -125,10 +128,11 @@ export function Page(): JSX.Element {
         <Match when={view() === 'train'}>
           <TrainView
             lab={lab}
-            onEvaluate={(policy, map) => {
-              fillIn(policy, map);
-              address.show('evaluate');
-            }}
+            onEvaluate={(policy, map) =>
+              void showFilled('evaluate', async () => {
+                (await import('../features/evaluate/draft')).fillIn(policy, map);
+              })
+            }
           />
         </Match>
         <Match when={view() === 'recordings'}>
