@@ -31,9 +31,9 @@ test('saves a picture of the plan view, also for a viewer', async ({ lab, openLa
     expect(pixels.colours).toBeGreaterThan(50);
     const bead = await colour(one, '--bead');
     expect(pixels.around.some((pixel) => isNear(pixel, bead))).toBe(true);
-    const corner = await decode(one.page, bytes, [4, 4], 2);
-    const panel = await colour(one, '--panel');
-    expect(corner.around.every((pixel) => isNear(pixel, panel))).toBe(true);
+    const end = await decode(one.page, bytes, [pixels.width - 4, pixels.height - 4], 2);
+    const surface = await colour(one, '--surface');
+    expect(end.around.every((pixel) => isNear(pixel, surface))).toBe(true);
   }
 });
 
