@@ -1,7 +1,7 @@
 // Walls that move: the plan view, the 3-D view and saved pictures show them where they are.
 
 import { LONG, type Lab, expect, test } from './fixtures';
-import { colour, decode, isNear, RATIO, saved } from './support/pictures';
+import { colour, decode, RATIO, saved } from './support/pictures';
 import { CONTROL_STEP_TICKS, SECOND_TICKS } from './support/stepper';
 import { openSceneView } from './support/preconditions';
 import { gpuObjects, px, settled } from './support/scene';
@@ -83,6 +83,22 @@ async function planPixel(lab: Lab, at: Point) {
   );
 }
 
+const WALL = ['--wall', '--wall-deep', '--wall-lip', '--wall-rim'];
+/** Opacity of the shadow of a wall on the floor. */
+const SHADE = 0.3;
+
+/** Tells pixels of a wall, which has a relief, from those of the floor, which may lie in the shadow. */
+async function wallOrFloor(lab: Lab) {
+  const wall = await Promise.all(WALL.map((name) => colour(lab, name)));
+  const [floor, shade] = [await colour(lab, '--floor'), await colour(lab, '--wall-shade')];
+  const shaded = floor.map((value, i) => (1 - SHADE) * value + SHADE * (shade[i] ?? NaN));
+  const apart = (a: readonly number[], b: readonly number[]) =>
+    Math.hypot(...a.map((value, i) => value - (b[i] ?? NaN)));
+  const nearest = (pixel: readonly number[], all: readonly (readonly number[])[]) =>
+    Math.min(...all.map((one) => apart(pixel, one)));
+  return (pixel: readonly number[]) => nearest(pixel, wall) < nearest(pixel, [floor, shaded]);
+}
+
 /** A picture of the 3-D view around a place. */
 async function scenePicture(lab: Lab, at: Point) {
   await settled(lab);
@@ -91,11 +107,18 @@ async function scenePicture(lab: Lab, at: Point) {
   return lab.page.screenshot({ clip });
 }
 
-const groupOf = (lab: Lab) => lab.page.locator('summary').filter({ hasText: /^Walls and fluid/ });
+/** Opens the parameters of the walls. */
+async function openWalls(lab: Lab) {
+  await lab.panel('Tune');
+  await lab.page
+    .locator('summary')
+    .filter({ hasText: /^Walls and fluid/ })
+    .click();
+}
 
 async function prepare(lab: Lab) {
   await lab.reset({ map: 'colon' });
-  await groupOf(lab).click();
+  await openWalls(lab);
   await lab.tune('Period', '20');
   await until('the period', () => lab.scene.parameters.peristalsis_period_s === 20);
   return spotOf(lab);
@@ -103,8 +126,8 @@ async function prepare(lab: Lab) {
 
 test('draws the moving walls in the plan view', async ({ lab }) => {
   const spot = await prepare(lab);
-  const wall = await colour(lab, '--wall');
-  const isWall = async () => isNear(await planPixel(lab, spot.at), wall);
+  const isWallPixel = await wallOrFloor(lab);
+  const isWall = async () => isWallPixel(await planPixel(lab, spot.at));
   const hint = lab.page.locator('.wall-hint');
   expect(await isWall(), 'a wall before it moves').toBe(false);
   await amplitude(lab, '20');
@@ -118,7 +141,7 @@ test('draws the moving walls in the plan view', async ({ lab }) => {
   const { x: left, y: top } = await lab.boxOf(lab.canvas);
   const at = [RATIO * (x - left), RATIO * (y - top)] as const;
   const { around } = await decode(lab.page, bytes, at, 1);
-  expect(around.every((pixel) => isNear(pixel, wall))).toBe(true);
+  expect(around.every(isWallPixel)).toBe(true);
   await lab.page.keyboard.press('Escape');
 
   await rest(lab);
@@ -146,9 +169,9 @@ test('draws the moving walls in the 3-D view, and frees them at rest', LONG, asy
   expect(more[0]).toBeGreaterThan(objects[0] ?? 0);
 
   // Another theme uses the same objects.
-  await lab.button('Use light colours').click();
+  await lab.button('Light').click();
   await settled(lab);
-  await lab.button('Use dark colours').click();
+  await lab.button('Dark').click();
   expect(await gpuObjects(lab)).toEqual(more);
   expect((await scenePicture(lab, spot.at)).equals(covered)).toBe(true);
 
@@ -159,7 +182,7 @@ test('draws the moving walls in the 3-D view, and frees them at rest', LONG, asy
 
 test('keeps the actions of the workspace while the walls move', async ({ lab }) => {
   await lab.reset({ map: 'colon' });
-  await groupOf(lab).click();
+  await openWalls(lab);
   await amplitude(lab, '6');
   const isMoving = () => Math.max(...(lab.state.wave_m ?? [0])) > 0.004;
   await lab.stepUntil('moving walls', isMoving, CONTROL_STEP_TICKS);
@@ -181,7 +204,7 @@ test('says once that the walls cannot be drawn, and asks again after a rest', as
     await (isBroken ? route.fulfill({ status: 503, body: '' }) : route.continue());
   });
   await lab.reset({ map: 'colon' });
-  await groupOf(lab).click();
+  await openWalls(lab);
   await amplitude(lab, '6');
   await lab.step(SECOND_TICKS);
   const notice = lab.notice('workspace').filter({ hasText: 'The moving walls cannot be drawn' });
@@ -201,9 +224,10 @@ test('shows a viewer the moving walls', LONG, async ({ lab, openLab }) => {
   await cover(lab, spot);
   const viewer = await openLab();
   await viewer.isRole('viewer');
-  const wall = await colour(viewer, '--wall');
-  await until('the moved wall', async () => isNear(await planPixel(viewer, spot.at), wall));
+  const isWallPixel = await wallOrFloor(viewer);
+  const isWall = async () => isWallPixel(await planPixel(viewer, spot.at));
+  await until('the moved wall', isWall);
   // The layout of a phone: the plan is smaller.
   await viewer.page.setViewportSize({ width: 390, height: 844 });
-  await until('the moved wall', async () => isNear(await planPixel(viewer, spot.at), wall));
+  await until('the moved wall', isWall);
 });
