@@ -3,8 +3,10 @@
 mod catalog;
 mod comparison;
 mod course;
+mod frames;
 mod hand;
 mod hub;
+mod outbox;
 mod seat;
 mod seats;
 
@@ -20,16 +22,16 @@ use futures_util::stream::FuturesUnordered;
 use futures_util::{FutureExt, StreamExt};
 use serde::Deserialize;
 use tokio::sync::broadcast::error::RecvError;
-use tokio::sync::{broadcast, oneshot, watch};
+use tokio::sync::{oneshot, watch};
 use tokio::time::Instant;
 use utoipa::IntoParams;
 
 use self::catalog::Feed;
 pub use self::catalog::{Lists, keep as keep_lists};
-use self::course::Reach;
+use self::frames::json;
 use self::hand::Hand;
-use self::hub::json;
 pub use self::hub::{CameraWatch, Encoded, Hub};
+use self::outbox::Outbox;
 use self::seat::Seat;
 use self::seats::Seats;
 use super::Server;
@@ -42,7 +44,7 @@ use crate::session::CommandError;
 use ferry_core::facts::RefusalCode;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Command;
-use ferry_core::trial::{Case, Event};
+use ferry_core::trial::Case;
 
 const LIMITS: Limits = Limits { message_bytes: MAX_MESSAGE_BYTES, ping_every: Duration::from_secs(15) };
 /// Of a browser that joins when [`LARGE_SEATS`] are taken: room for everything but test cases.
@@ -118,17 +120,6 @@ enum Taken {
     Step(oneshot::Receiver<Result<(), CommandError>>),
 }
 
-/// Where the messages to the browser come from, and the versions of the newest ones that it has received.
-struct Outbox {
-    encoded: watch::Receiver<Encoded>,
-    events: broadcast::Receiver<Event>,
-    scene_version: u64,
-    past_version: u64,
-    sight_version: u64,
-    seen_version: u64,
-    course: Reach,
-}
-
 impl Connection {
     fn new(seat: Seat, hub: Arc<Hub>, server: Arc<Server>, socket: Socket, message_bytes: usize) -> Self {
         let hand = Hand::new(seat.own, hub.clone());
@@ -148,15 +139,7 @@ impl Connection {
         let mut seats = self.hub.seats();
         let mut comparison = self.hub.comparison();
         let mut closing = self.hub.closing();
-        let mut out = Outbox {
-            encoded: self.hub.encoded(),
-            events: self.hub.session.events(),
-            scene_version: 0,
-            past_version: 0,
-            sight_version: 0,
-            seen_version: 0,
-            course: Reach::default(),
-        };
+        let mut out = Outbox::new(&self.hub);
         let mut goes_on = true;
         let hand = self.hand.clone();
         let now = *seats.borrow_and_update();

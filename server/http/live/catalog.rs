@@ -11,7 +11,7 @@ use futures_util::future::select_all;
 use tokio::sync::watch;
 
 use super::Connection;
-use super::hub::json;
+use super::frames::json;
 use crate::http::Server;
 use crate::http::lists;
 use crate::protocol::{CatalogMessage, Policies, Refusal, ServerMessage, TrainingPoint, TrainingPointsMessage};

@@ -3,7 +3,7 @@
 
 use axum::body::Bytes;
 
-use super::hub::binary;
+use super::frames::binary;
 use crate::protocol::BINARY_COURSE;
 use crate::session::View;
 use ferry_core::control::switching::Mode;

@@ -7,12 +7,12 @@ use std::time::Duration;
 use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use jiff::Timestamp;
-use serde::Serialize;
 use tokio::sync::{Semaphore, watch};
 use tokio::time::Instant;
 
 use super::comparison;
 use super::course::{self, Part};
+use super::frames::{BINARY_HEAD, binary, json};
 use super::seats::Seats;
 use crate::protocol::{
     BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
@@ -27,8 +27,6 @@ use ferry_core::session::Recalled;
 /// Camera frames are sent at most thirty times a second.
 const CAMERA_EVERY: Duration = Duration::from_millis(33);
 const JPEG_QUALITY: u8 = 85;
-/// Bytes before the picture of a binary message.
-const BINARY_HEAD: usize = 8;
 
 /// The newest messages, ready to send. Parts that did not change are shared with the last one.
 #[derive(Clone)]
@@ -354,15 +352,4 @@ impl Encoder {
         self.last = Some(next.clone());
         next
     }
-}
-
-pub fn json(message: &impl Serialize) -> Utf8Bytes {
-    serde_json::to_string(message).expect("messages are plain data").into()
-}
-
-pub fn binary(kind: u8, tick: u64, payload: &[u8]) -> Bytes {
-    let mut bytes = vec![kind, 0, 0, 0];
-    bytes.extend((tick as u32).to_le_bytes());
-    bytes.extend(payload);
-    bytes.into()
 }

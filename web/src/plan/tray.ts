@@ -100,7 +100,7 @@ function sidesOf({ x_min_m, x_max_m, y_min_m, y_max_m }: Rect): Side[] {
   ];
 }
 
-/** The lines between walls and free places. Where a wall meets the frame there is none. */
+/** The lines between walls and free places, but not where a wall meets the frame. */
 export function edgePath({ workspace, walls }: Tray, view: View): Path2D {
   const path = new Path2D();
   const sides = sidesOf(workspace).map((side) => ({ side, covered: [] as [number, number][] }));
