@@ -1,7 +1,7 @@
 // What pointer and keys do on the map: in few words for the eyes, whole for screen readers.
 
 import { Show, type JSX } from 'solid-js';
-import { HandGrab, Move3d, Target, type IconNode } from 'lucide';
+import { HandGrab, Keyboard, Move3d, Target, type IconNode } from 'lucide';
 import { Icon } from '../ui/Icon';
 import { IS_TOUCH } from '../ui/touch';
 
@@ -19,11 +19,12 @@ export function WorkspaceHint(props: { steers: boolean; scene: boolean }): JSX.E
     <Show
       when={!props.steers}
       fallback={
-        <Hint icon={HandGrab}>
-          {IS_TOUCH
-            ? 'Press and move the finger: the tool follows.'
-            : 'Press and move the pointer, or hold the arrow keys: the tool follows.'}
-        </Hint>
+        <>
+          <Hint icon={HandGrab}>Press and move: the tool follows</Hint>{' '}
+          <Show when={!IS_TOUCH}>
+            <Hint icon={Keyboard}>Or hold the arrow keys</Hint>
+          </Show>
+        </>
       }
     >
       <Hint icon={HandGrab}>Drag the bead to disturb it</Hint>{' '}
