@@ -102,14 +102,6 @@ export const VIEWS: Section = {
     'button Key': { see: panel, ready: showPanel('Now') },
     'button Close': { see: panel, ready: openLayers },
     'button /seed \\d+$/': { see: panel, ready: showPanel('Now'), isToggle: true },
-    'button Hide the panel': { see: panel, ready: showPanel('Now') },
-    'button Show the panel': {
-      see: panel,
-      ready: async (lab) => {
-        const hide = lab.button('Hide the panel');
-        if (await hide.count()) await hide.click();
-      },
-    },
     'button Plots': toggle(isPressed),
     'button Camera': toggle(expanded, showPanel('Now')),
     'button Curves': { see: panel, ready: showPanel('Now') },
@@ -173,6 +165,25 @@ async function ensureKeptRun(lab: Lab) {
   await lab.button('Reset').click();
   await until('a kept run', () => lab.scene.trial !== before && lab.scene.kept_runs.length > 0);
 }
+
+/** A tablet has the panel below the map, which has its greatest size. */
+export const WIDE_WINDOW: Section = {
+  name: 'a wide window',
+  rows: {
+    'button Hide the panel': { see: panel, ready: showPanel('Now') },
+    'button Show the panel': {
+      see: panel,
+      ready: async (lab) => {
+        const hide = lab.button('Hide the panel');
+        if (await hide.count()) await hide.click();
+      },
+    },
+    'button Fill': {
+      see: (lab) => lab.canvas.getAttribute('data-px-per-m'),
+      after: (lab) => lab.button('Show the panel').click(),
+    },
+  },
+};
 
 export const PLAYBACK: Section = {
   name: 'the playback bar',

@@ -7,7 +7,7 @@ import { isChosen, setOf } from '../support/inputMethods';
 import { CHALLENGE } from './challenge';
 import { DRAW } from './draw';
 import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
-import { EXPERIMENTS, LAYERS, PLAYBACK, VIEWS, WORKSPACE } from './laboratory';
+import { EXPERIMENTS, LAYERS, PLAYBACK, VIEWS, WIDE_WINDOW, WORKSPACE } from './laboratory';
 import { PARAMETERS, PRESETS, SOME_PARAMETERS } from './parameters';
 import { PHONE } from './phone';
 import { RECOVERY } from './recovery';
@@ -23,7 +23,7 @@ type SectionsByTest = Readonly<Record<string, readonly Section[]>>;
 
 /** The sections of each test. Small sections share a test, because opening a page takes longer than they do. */
 const SECTIONS_BY_TEST: SectionsByTest = {
-  'views, maps and presets': [VIEWS, EXPERIMENTS, PRESETS, STEER],
+  'views, maps and presets': [VIEWS, WIDE_WINDOW, EXPERIMENTS, PRESETS, STEER],
   'the workspace and the playback bar': [WORKSPACE, PLAYBACK],
   'the layers and the link': [LAYERS, SHARE],
   'plots, magnet and disturbances': [PLOTS, MAGNET, DISTURB],
@@ -38,11 +38,15 @@ const SECTIONS_BY_TEST: SectionsByTest = {
   'the parameters': PARAMETERS,
 };
 
-/** The mouse uses every parameter, the keyboard and touch one field of each kind. */
-export const sectionsFor = (inputMethod: string): SectionsByTest =>
-  inputMethod === 'mouse'
-    ? SECTIONS_BY_TEST
-    : { ...SECTIONS_BY_TEST, 'the parameters': SOME_PARAMETERS };
+/** The mouse uses every parameter, the keyboard and touch one field of each kind. The window of touch is not wide. */
+export function sectionsFor(inputMethod: string): SectionsByTest {
+  if (inputMethod === 'mouse') return SECTIONS_BY_TEST;
+  const some: SectionsByTest = { ...SECTIONS_BY_TEST, 'the parameters': SOME_PARAMETERS };
+  if (inputMethod === 'keyboard') return some;
+  return Object.fromEntries(
+    Object.entries(some).map(([title, all]) => [title, all.filter((one) => one !== WIDE_WINDOW)]),
+  );
+}
 
 type AriaRole = Parameters<Page['getByRole']>[0];
 
