@@ -115,7 +115,7 @@ test('runs its programme, gives way to a visitor, and returns', async ({ page })
   await until('the planner', () => lab.state.controller === 'errt');
 
   await page.keyboard.press('Escape');
-  await page.getByRole('link', { name: 'Lab' }).waitFor();
+  await page.getByRole('region', { name: 'Experiment' }).waitFor();
 });
 
 test(
@@ -278,6 +278,7 @@ test('returns to the session that it was opened from', LONG, async ({ page }) =>
     () => page.getByRole('link', { name: 'Leave' }).click(),
     () => page.keyboard.press('Escape'),
   ]) {
+    await lab.button('More').click();
     await page.getByRole('link', { name: 'Present' }).click();
     await page.getByRole('heading', { name: 'Demonstration' }).waitFor({ state: 'attached' });
     await leave();

@@ -10,21 +10,24 @@ const settleMs = (view: string) => (view === 'Recordings' ? 3300 : 700);
 /** Longer than the pauses with which these views polled. */
 const REST_MS = 5300;
 
-test('a page at rest makes no request, in any view, after each tab was open', async ({
+const PANELS = ['Now', 'Story', 'Learn', 'Play', 'Compare', 'Recovery', 'Disturb', 'Tune'] as const;
+
+test('a page at rest makes no request, in any view, after each panel was open', async ({
   lab,
   openLab,
   server,
 }) => {
-  const { page } = await openLab();
+  const viewer = await openLab();
+  const { page } = viewer;
   const requests: string[] = [];
   const sockets: string[] = [];
   page.on('request', (request) => requests.push(request.url()));
   page.on('websocket', (socket) => sockets.push(socket.url()));
   await page.reload();
-  const tabs = page.getByRole('tab');
-  await expect(page.getByTestId('connection')).toHaveAttribute('data-link', 'live');
-  expect(await tabs.count()).toBeGreaterThan(5);
-  for (const tab of await tabs.all()) await tab.click();
+  await viewer.isConnection('live');
+  await expect(page.getByRole('tab')).toHaveText(['Now', 'Story', 'Learn', 'Play', 'Test', 'Tune']);
+  for (const panel of PANELS) await viewer.panel(panel);
+  for (const name of ['Layers', 'Layers', 'Plots']) await viewer.button(name).click();
   for (const name of ['Draw', 'Train', 'Recordings', 'Evaluate', 'Lab']) {
     await page
       .getByRole('navigation', { name: 'Views' })
@@ -41,7 +44,7 @@ test('a page at rest makes no request, in any view, after each tab was open', as
     expect(requests.slice(count), name).toEqual([]);
   }
   // What another browser changes is shown all the same, with the drawings of the maps as pictures.
-  await page.getByTitle('Set up: map, preset, seed').click();
+  await viewer.setUp();
   await page.waitForLoadState('networkidle');
   const before = requests.length;
   const added = await lab.page.request.post(`${server.url}/api/maps?name=rest`, {
