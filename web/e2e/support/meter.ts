@@ -222,7 +222,7 @@ export async function stepThrough(lab: Lab, count: number) {
     const { tick } = lab.state;
     await lab.button('Step').click();
     await expect
-      .poll(() => lab.page.getByTestId('tick').textContent(), { intervals: [25] })
-      .toBe(`tick ${tick + 1}`);
+      .poll(() => lab.page.getByTestId('sim-time').getAttribute('title'), { intervals: [25] })
+      .toBe(`Tick ${tick + 1}`);
   }
 }

@@ -8,18 +8,18 @@ declare global {
   }
 }
 
-/** The text of the tick is written in the frame that draws its state. */
+/** The tick is written, as the title of the time, in the frame that draws its state. */
 export function tellTick() {
   const listeners: ((tick: string) => void)[] = [];
   window.ferryShown = (listener) => listeners.push(listener);
   const appeared = new MutationObserver(() => {
-    const element = document.querySelector('[data-testid=tick]');
+    const element = document.querySelector<HTMLElement>('[data-testid=sim-time]');
     if (!element) return;
     appeared.disconnect();
     new MutationObserver(() => {
-      const tick = element.textContent.replace(/\D/g, '');
+      const tick = element.title.replace(/\D/g, '');
       for (const listener of listeners) listener(tick);
-    }).observe(element, { childList: true, characterData: true, subtree: true });
+    }).observe(element, { attributeFilter: ['title'] });
   });
   appeared.observe(document, { childList: true, subtree: true });
 }
