@@ -31,11 +31,6 @@ export const EVENT_SYMBOLS: readonly (readonly [EventKind, string])[] = [
   ['reached', '◌'],
 ];
 
-/** The marks with their names, in one line. */
-export const SYMBOL_LEGEND = EVENT_SYMBOLS.map(
-  ([kind, symbol]) => `${symbol} ${TITLES[kind].toLowerCase()}`,
-).join(', ');
-
 /** Whether two messages are about the same event: the server sends events again. */
 export const isSameEvent = (a: EventMessage, b: EventMessage): boolean =>
   a.tick === b.tick && a.kind === b.kind && JSON.stringify(a.what) === JSON.stringify(b.what);

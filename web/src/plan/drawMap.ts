@@ -1,16 +1,11 @@
-// Draws the static parts of the workspace below the walls: the floor with its marks, and the numbers beside it.
+// Draws the floor with its marks.
 
-import { fixed } from '../ui/format';
 import type { Rect } from '../net/protocol.gen';
 import { pxFromWorld, pxRect, type View } from './transform';
 import { unitM } from './tray';
 import type { Ctx } from './sheet';
 import type { Palette } from '../ui/palette';
 
-export const FONT = "500 12px 'Inter Variable', system-ui, sans-serif";
-const LABEL_GAP_PX = 5;
-const TICK_PX = 4;
-const BORDER_PX = 2;
 const MIN_LABEL_SPACING_PX = 56;
 const MIN_MARK_SPACING_PX = 36;
 /** Half a mark of the floor, in units of the tray. */
@@ -44,40 +39,4 @@ export function drawFloor(ctx: Ctx, rect: Rect, view: View, palette: Palette): v
   ctx.strokeStyle = palette['floor-grid'];
   ctx.lineWidth = 1.2;
   ctx.stroke();
-}
-
-/** The numbers beside the workspace. */
-export function drawNumbers(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
-  const step = gridStepM(view.pxPerM);
-  ctx.font = FONT;
-  ctx.fillStyle = palette['ink-3'];
-  ctx.strokeStyle = palette['floor-grid'];
-  ctx.lineWidth = 1;
-  ctx.beginPath();
-  ctx.textAlign = 'center';
-  ctx.textBaseline = 'top';
-  for (const x_m of multiples(step, rect.x_min_m, rect.x_max_m)) {
-    const x = Math.round(pxFromWorld(view, [x_m, 0])[0]) + 0.5;
-    ctx.moveTo(x, top);
-    ctx.lineTo(x, bottom + TICK_PX);
-    ctx.fillText(fixed(x_m, step < 0.1 ? 2 : 1), x, bottom + TICK_PX + LABEL_GAP_PX - 2);
-  }
-  ctx.textAlign = 'right';
-  ctx.textBaseline = 'middle';
-  for (const y_m of multiples(step, rect.y_min_m, rect.y_max_m)) {
-    const y = Math.round(pxFromWorld(view, [0, y_m])[1]) + 0.5;
-    ctx.moveTo(left - TICK_PX, y);
-    ctx.lineTo(right, y);
-    ctx.fillText(fixed(y_m, step < 0.1 ? 2 : 1), left - TICK_PX - LABEL_GAP_PX, y);
-  }
-  ctx.stroke();
-}
-
-/** The borders are walls too. */
-export function drawBorder(ctx: Ctx, rect: Rect, view: View, palette: Palette): void {
-  ctx.strokeStyle = palette['wall-rim'];
-  ctx.lineWidth = BORDER_PX;
-  ctx.strokeRect(...pxRect(view, rect));
 }
