@@ -6,7 +6,6 @@ import './styles/reset.css';
 import './ui/buttons.css';
 import './ui/controls.css';
 import './ui/text.css';
-import './ui/panel.css';
 import type { JSX } from 'solid-js';
 import { render } from 'solid-js/web';
 import { keepFocus } from './app/focus';

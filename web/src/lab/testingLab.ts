@@ -5,7 +5,6 @@ import '../styles/reset.css';
 import '../ui/buttons.css';
 import '../ui/controls.css';
 import '../ui/text.css';
-import '../ui/panel.css';
 import { createRoot, type JSX } from 'solid-js';
 import { render } from 'solid-js/web';
 import { afterEach, vi } from 'vitest';
