@@ -1,6 +1,6 @@
 // The dock: plots, the time line, and what acts on time: run, who steers, disturb.
 
-import { Show, type JSX } from 'solid-js';
+import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { Activity, Eye, HandGrab, Radio } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
 import { SteeredBy } from '../features/controller/SteeredBy';
@@ -61,6 +61,33 @@ function Cursors(props: { lab: Lab; axis: TimeAxis }): JSX.Element {
   );
 }
 
+/** Another browser asks for control: the operator gives it or keeps it. */
+function Asked(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const [isKept, setKept] = createSignal(false);
+  const isAsked = createMemo(() => lab.hello()?.role === 'operator' && lab.hello()?.asked === true);
+  createEffect(on(isAsked, () => setKept(false)));
+  return (
+    <div class="notices" role="alert">
+      <Show when={isAsked() && !isKept()}>
+        <p class="notice">
+          <span>Another browser asks for control.</span>
+          <button
+            type="button"
+            class="small primary"
+            onClick={() => void lab.send('session', { type: 'release_control' })}
+          >
+            Give control
+          </button>
+          <button type="button" class="small ghost" onClick={() => setKept(true)}>
+            Keep
+          </button>
+        </p>
+      </Show>
+    </div>
+  );
+}
+
 /** In place of the transport: why a viewer cannot act, and what can be done. */
 function Watching(props: { lab: Lab }): JSX.Element {
   return (
@@ -89,6 +116,7 @@ export function Dock(props: { lab: Lab }): JSX.Element {
         <PlaceNotice lab={lab} place="workspace" />
         <PlaceNotice lab={lab} place="playback" />
         <PlaceNotice lab={lab} place="controller" />
+        <Asked lab={lab} />
       </div>
       <div class="times">
         <Show when={hasLanes()}>

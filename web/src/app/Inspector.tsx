@@ -50,8 +50,8 @@ function TabList(props: { lab: Lab; tab: Tab }): JSX.Element {
 export function Inspector(props: {
   lab: Lab;
   parts: PageParts;
-  /** Above every panel. */
-  above: JSX.Element;
+  /** Below every panel, so that the panel does not move when it comes. */
+  below: JSX.Element;
 }): JSX.Element {
   const { lab } = props;
   let root!: HTMLElement;
@@ -83,7 +83,6 @@ export function Inspector(props: {
           role={extra() ? undefined : 'tabpanel'}
           aria-labelledby={extra() ? undefined : `tab-${tab()?.title ?? ''}`}
         >
-          {props.above}
           <Show when={(tab()?.panels.length ?? 0) > 1 && tab()}>
             {(one) => (
               <Segmented
@@ -99,6 +98,7 @@ export function Inspector(props: {
             {(one) => <Dynamic component={one.panel} lab={lab} {...props.parts} />}
           </Show>
         </div>
+        {props.below}
       </aside>
     </Show>
   );

@@ -34,7 +34,8 @@ export function MoreMenu(props: { lab: Session & Trial & Notices & Addressed }):
   if (lab.session !== MAIN) nameTab(lab.session);
   const isOperator = (): boolean => lab.hello()?.role === 'operator';
   /** In the laboratory, the dock has the button. */
-  const takes = (): boolean => !isOperator() && lab.address.view() !== 'laboratory';
+  const passes = (): boolean =>
+    lab.address.view() !== 'laboratory' && (!isOperator() || lab.hello()?.asked === true);
   const isLive = (): boolean => lab.connection().kind === 'live';
   const link = (): string => (lab.ended() ? 'ended' : lab.connection().kind);
   const recording = () => lab.state()?.recording;
@@ -46,7 +47,7 @@ export function MoreMenu(props: { lab: Session & Trial & Notices & Addressed }):
       data-link={link()}
       data-role={lab.hello()?.role}
     >
-      <Show when={isLive() && lab.hello() && (takes() || lab.hello()?.asked)}>
+      <Show when={isLive() && lab.hello() && passes()}>
         <button
           type="button"
           class="primary"

@@ -119,7 +119,7 @@ export function Page(): JSX.Element {
                   (await import('../features/train/state')).showMap();
                 }),
             }}
-            above={<FailureCard lab={lab} />}
+            below={<FailureCard lab={lab} />}
           />
         </Match>
         <Match when={view() === 'draw'}>

@@ -37,6 +37,7 @@ export function Band(props: {
       return { ...stretch, from: at(stretch.from_tick), to: next ? at(next.from_tick) : 1 };
     });
   });
+  const cutBefore = (time_s: number): string => `inset(0 0 0 ${percent(axis.share(time_s))})`;
   return (
     <div class="band-line" aria-hidden="true">
       <For each={parts().filter(({ from, to }) => to > from)}>
@@ -51,8 +52,8 @@ export function Band(props: {
           />
         )}
       </For>
-      <span class="not-run" style={{ left: percent(axis.share(props.now_s)) }} />
-      <span class="beyond" style={{ left: percent(axis.share(props.newest_s)) }} />
+      <span class="not-run" style={{ 'clip-path': cutBefore(props.now_s) }} />
+      <span class="beyond" style={{ 'clip-path': cutBefore(props.newest_s) }} />
     </div>
   );
 }
