@@ -20,15 +20,15 @@ const TITLES: Readonly<Record<EventKind, string>> = {
 };
 
 /** Kinds of events with a mark on the timeline, the most important first. Other kinds have no mark. */
-export const EVENT_SYMBOLS: readonly (readonly [EventKind, string])[] = [
-  ['lift_off', '↥'],
-  ['stopped', '■'],
-  ['switch', '⇄'],
-  ['disturbance', '✱'],
-  ['delivered', '✓'],
-  ['refused', '⊘'],
-  ['goal', '◎'],
-  ['reached', '◌'],
+export const MARKED_KINDS: readonly EventKind[] = [
+  'lift_off',
+  'stopped',
+  'switch',
+  'disturbance',
+  'delivered',
+  'refused',
+  'goal',
+  'reached',
 ];
 
 /** Whether two messages are about the same event: the server sends events again. */

@@ -3,18 +3,13 @@
 import { eventWords } from '../../words/events';
 import type { EventMessage } from '../../net/protocol.gen';
 import { type EventLook, eventLook } from '../../lab/eventLook';
-import { EVENT_SYMBOLS, eventTitle } from '../../lab/eventStory';
+import { eventTitle, MARKED_KINDS } from '../../lab/eventStory';
 
 /** A title names at most this many events. */
 const MAX_TITLES = 6;
-const RANKS = new Map(EVENT_SYMBOLS.map(([kind], rank) => [kind, rank]));
 
 /** Of a mark for events of several colours. */
 const MIXED: EventLook = { icon: [], colour: 'ink-2' };
-
-export function isMarked(event: EventMessage): boolean {
-  return RANKS.has(event.kind);
-}
 
 export interface Cluster {
   /** Middle of the button. */
@@ -27,7 +22,7 @@ export interface Cluster {
 }
 
 function clusterOf(px: number, events: readonly EventMessage[], first: EventMessage): Cluster {
-  const rank = (event: EventMessage): number => RANKS.get(event.kind) ?? EVENT_SYMBOLS.length;
+  const rank = (event: EventMessage): number => MARKED_KINDS.indexOf(event.kind);
   for (const event of events) if (rank(event) < rank(first)) first = event;
   const look = eventLook(first);
   const more = events.length === 1 ? '' : `, one of ${events.length} events`;
@@ -55,7 +50,7 @@ export function clusters(
 ): Cluster[] {
   const found: Cluster[] = [];
   for (const event of events) {
-    if (!isMarked(event)) continue;
+    if (!MARKED_KINDS.includes(event.kind)) continue;
     const at = px(event.sim_time_s);
     const last = found.at(-1);
     if (last && at - last.px < gapPx) {
