@@ -6,9 +6,9 @@ import type { Locator } from '@playwright/test';
 import { hasRow } from './controls/table';
 import { DAILY, LONG, type Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
-import { DESKTOP, TABLET } from './support/browser';
+import { DESKTOP, PHONE, TABLET } from './support/browser';
 import { MIN_SIDE_PX, controls, faultsOf, unreached } from './support/inventory';
-import { illegible } from './support/legible';
+import { atRest, illegible } from './support/legible';
 import {
   type Place,
   type Places,
@@ -16,6 +16,7 @@ import {
   controllers,
   inTurn,
   panels,
+  phone,
   plots,
   prepare,
   refusalsHelpAndRoles,
@@ -65,6 +66,38 @@ async function inColours(lab: Lab, place: Place, theme: Theme, isView: boolean) 
   return found.map((one) => `${place.name}, ${one}`);
 }
 
+interface Look {
+  /** Of controls. */
+  readonly leastPx: number;
+  /** Whether axe looks at the whole page, otherwise at the panel of each place; undefined: it does not look. */
+  readonly axe?: 'page' | 'panel';
+  readonly hasPictures: boolean;
+  /** Whether also the controls count that are there at the beginning. */
+  readonly isWhole: boolean;
+}
+
+/** What is wrong at all places, in dark colours. */
+async function faultsAt(lab: Lab, places: Places, look: Look) {
+  const faults = new Set<string>();
+  const known = new Set<string>();
+  if (!look.isWhole) for (const { key } of await controls(lab.page)) known.add(key);
+  for await (const place of places(lab)) {
+    if (look.axe)
+      for (const one of await inColours(lab, place, 'dark', look.axe === 'page')) faults.add(one);
+    if (look.hasPictures) await savePictures(lab, place, 'dark');
+    const all = await controls(lab.page);
+    for (const fault of faultsOf(all, look.leastPx)) faults.add(fault);
+    for (const fault of await illegible(lab.page)) faults.add(`${place.name}: ${fault}`);
+    const added = all.filter(({ key }) => !known.has(key));
+    for (const one of added) {
+      known.add(one.key);
+      if (!hasRow(one)) faults.add(`“${one.key}” has no row in e2e/controls`);
+    }
+    for (const fault of await unreached(lab.page, all, added, place.opener)) faults.add(fault);
+  }
+  return [...faults];
+}
+
 for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLET })) {
   const isTouch = device === 'tablet';
 
@@ -73,36 +106,21 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
 
     for (const [where, places] of Object.entries(PLACES)) {
       const isView = where === 'views';
+      // A tablet has the same colours, and the same elements in each view.
+      const axe = isView ? 'page' : 'panel';
 
       test(
         `${where}: names, sizes, text, Tab order and contrast are right on a ${device}`,
         !isTouch && DAILY_PLACES.includes(where) ? DAILY : LONG,
         async ({ lab }) => {
-          const faults = new Set<string>();
-          const known = new Set<string>();
           await prepare(lab);
-          // The test of the views checks the whole page, the other tests only controls that they open.
-          if (!isView) for (const { key } of await controls(lab.page)) known.add(key);
-          for await (const place of places(lab)) {
-            // A tablet has the same colours, and the same elements in each view.
-            if (!isTouch || isView)
-              for (const one of await inColours(lab, place, 'dark', isView)) faults.add(one);
-            if (!isTouch) await savePictures(lab, place, 'dark');
-            const all = await controls(lab.page);
-            for (const fault of faultsOf(all, isTouch ? MIN_SIDE_PX.touch : MIN_SIDE_PX.mouse)) {
-              faults.add(fault);
-            }
-            for (const fault of await illegible(lab.page)) faults.add(`${place.name}: ${fault}`);
-            const added = all.filter(({ key }) => !known.has(key));
-            for (const one of added) {
-              known.add(one.key);
-              if (!hasRow(one)) faults.add(`“${one.key}” has no row in e2e/controls`);
-            }
-            for (const fault of await unreached(lab.page, all, added, place.opener)) {
-              faults.add(fault);
-            }
-          }
-          expect([...faults]).toEqual([]);
+          const faults = await faultsAt(lab, places, {
+            leastPx: isTouch ? MIN_SIDE_PX.touch : MIN_SIDE_PX.mouse,
+            ...(!isTouch || isView ? { axe } : {}),
+            hasPictures: !isTouch,
+            isWhole: isView,
+          });
+          expect(faults).toEqual([]);
         },
       );
 
@@ -120,6 +138,21 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
     }
   });
 }
+
+test.describe('phone', () => {
+  test.use({ ...PHONE, hasTouch: true });
+
+  test('names, sizes, text and Tab order are right on a phone', LONG, async ({ lab }) => {
+    const leastPx = MIN_SIDE_PX.touch;
+    const faults = await faultsAt(lab, phone, {
+      leastPx,
+      axe: 'page',
+      hasPictures: false,
+      isWhole: true,
+    });
+    expect(faults).toEqual([]);
+  });
+});
 
 test('the tests above cover every view, and each view has no other tabs', async ({ lab }) => {
   const views = lab.page.getByRole('navigation', { name: 'Views' }).getByRole('link');
@@ -145,6 +178,7 @@ for (const [name, width, height] of [
     for (const colorScheme of THEMES) {
       await lab.page.emulateMedia({ colorScheme });
       await lab.drawn();
+      await atRest(lab.page);
       await lab.page.screenshot({ path: `${PICTURES}web-${name}-${colorScheme}.png` });
     }
     const isWider = () =>

@@ -93,3 +93,12 @@ function inPage() {
 
 /** Text below 12 pixels, text of which a part is not seen, and controls whose middle is covered. */
 export const illegible = (page: Page): Promise<string[]> => page.evaluate(inPage);
+
+/** Waits until nothing fades or glides any more. */
+export const atRest = (page: Page) =>
+  page.evaluate(async () => {
+    const finite = document
+      .getAnimations()
+      .filter(({ effect }) => effect?.getComputedTiming().endTime !== Infinity);
+    await Promise.allSettled(finite.map(({ finished }) => finished));
+  });

@@ -71,7 +71,7 @@ const markOpeners = (scope: Locator) =>
         if (kinds.has(kind)) return [];
         kinds.add(kind);
         one.setAttribute('data-opener', String(at));
-        return [{ name: name.replace(/\d+$/, ''), at }];
+        return [{ name: kind === 'Why: ' ? 'why' : name.replace(/\d+$/, ''), at }];
       });
     });
 
@@ -106,6 +106,37 @@ export const view = (name: string): Places =>
     yield { name, panel: lab.page.locator('main'), opener };
     yield* popovers(lab.page, lab.page.locator('body'), name);
   };
+
+/** The map alone, each panel, and each view of a phone. */
+export const phone: Places = async function* (lab) {
+  const { page } = lab;
+  const foot = page.getByRole('navigation', { name: 'Panels' });
+  const more = foot.getByRole('button', { name: 'More' });
+  const tabs = await foot.locator('> button').all();
+  for (const tab of tabs) {
+    await tab.click();
+    await openDetails(page);
+    yield { name: await tab.innerText(), panel: page.locator('#app'), opener: tab };
+  }
+  await more.click();
+  const menu = page.locator('#more-panels');
+  yield { name: 'More', panel: menu, opener: more };
+  const panelNames = await menu.locator('.phone-panels button').allInnerTexts();
+  const viewNames = await menu.getByRole('link').allInnerTexts();
+  for (const name of panelNames) {
+    await menu.getByRole('button', { name, exact: true }).click();
+    await openDetails(page);
+    yield { name, panel: inspector(page), opener: more };
+    await more.click();
+  }
+  for (const name of viewNames) {
+    await menu.getByRole('link', { name, exact: true }).click();
+    await lab.drawn();
+    await openDetails(page);
+    yield { name, panel: page.locator('main'), opener: more };
+    if ((await more.getAttribute('aria-expanded')) === 'false') await more.click();
+  }
+};
 
 /** The menu of the plots, which is there with the lanes. */
 export const plots: Places = async function* (lab) {
