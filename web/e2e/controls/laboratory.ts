@@ -225,7 +225,8 @@ export const EXPERIMENTS: Section = {
   rows: {
     'radio /^(attractor-example(-arm)?|colon(-folds)?|open|posts|u-turn|vessels)$/': {
       see: (lab) => lab.scene.map,
-      act: (input) => input.press(input.page.getByRole('radio', { name: 'open', exact: true })),
+      // The one after “posts”, so that the keyboard presses an arrow once.
+      act: (input) => input.pick(input.page.getByRole('radio', { name: 'u-turn', exact: true })),
       after: backToPosts,
     },
     'button Open SVG…': {
