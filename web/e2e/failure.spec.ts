@@ -59,7 +59,7 @@ test('goes on after a failure, and compares from the start', LONG, async ({ open
   await lab.button('Compare from the start').click();
   await until('the comparison', () => lab.comparison?.running === false, FAILED_MS);
   expect(lab.sent.fork?.tick, 'it starts with the goal').toBe(0);
-  const rows = lab.page.getByRole('tabpanel').getByRole('row');
+  const rows = lab.page.getByRole('table', { name: /^Results of each/ }).getByRole('row');
   await expect(rows.filter({ hasText: 'ERRT' })).toContainText('delivered');
-  await expect(rows.filter({ hasText: 'Attractor' })).toContainText('stopped');
+  await expect(rows.filter({ hasText: 'Attractor' })).toContainText('stuck');
 });

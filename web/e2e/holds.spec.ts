@@ -11,7 +11,7 @@ const SILENCE_MS = 9000;
 const LONGER_TICKS = 5600 / 8;
 /** Longer than the second between two reports. */
 const REPORT_TICKS = 1200 / 8;
-const SILENT = /no message from the page that holds the bead/i;
+const SILENT = /received nothing from the hand for a time: it released the bead and paused/;
 
 async function takeByMouse(lab: Lab) {
   await lab.startDrag(lab.freePoints(await lab.bead(), 0.05, 0.1)[0]);
