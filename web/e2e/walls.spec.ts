@@ -151,8 +151,11 @@ test('draws the moving walls in the plan view', async ({ lab }) => {
   await expect(hint).toHaveCount(0);
 });
 
+/** A link of the arm gets an outline when it covers the bead for the first time: twice is enough. */
+const MOST_MOTIONS = 4;
+
 test('draws the moving walls in the 3-D view, and frees them at rest', LONG, async ({ lab }) => {
-  test.setTimeout(240_000);
+  test.setTimeout(400_000);
   const spot = await prepare(lab);
   await openSceneView(lab);
   // From the front, a wall would hide the places behind it.
@@ -160,24 +163,29 @@ test('draws the moving walls in the 3-D view, and frees them at rest', LONG, asy
   // Trails have objects, too.
   for (let i = 0; i < 5; i++) await lab.step(10);
   const free = await scenePicture(lab, spot.at);
-  const objects = await gpuObjects(lab);
-  await amplitude(lab, '20');
-  await cover(lab, spot);
-  const covered = await scenePicture(lab, spot.at);
-  expect(covered.equals(free), 'the picture has not changed').toBe(false);
-  const more = await gpuObjects(lab);
-  expect(more[0]).toBeGreaterThan(objects[0] ?? 0);
+  let before: readonly number[] | undefined;
+  let objects: readonly number[] = await gpuObjects(lab);
+  for (let motion = 0; objects.join() !== before?.join(); motion++) {
+    expect(motion, 'the objects become more with every motion').toBeLessThan(MOST_MOTIONS);
+    before = objects;
+    await amplitude(lab, '20');
+    await cover(lab, spot);
+    const covered = await scenePicture(lab, spot.at);
+    expect(covered.equals(free), 'the picture has not changed').toBe(false);
+    const more = await gpuObjects(lab);
+    expect(more[0]).toBeGreaterThan(objects[0] ?? 0);
 
-  // Another theme uses the same objects.
-  await lab.button('Light').click();
-  await settled(lab);
-  await lab.button('Dark').click();
-  expect(await gpuObjects(lab)).toEqual(more);
-  expect((await scenePicture(lab, spot.at)).equals(covered)).toBe(true);
+    // Another theme uses the same objects.
+    await lab.button('Light').click();
+    await settled(lab);
+    await lab.button('Dark').click();
+    expect(await gpuObjects(lab)).toEqual(more);
+    expect((await scenePicture(lab, spot.at)).equals(covered)).toBe(true);
 
-  await rest(lab);
-  await until('the free place', async () => (await scenePicture(lab, spot.at)).equals(free));
-  expect(await gpuObjects(lab)).toEqual(objects);
+    await rest(lab);
+    await until('the free place', async () => (await scenePicture(lab, spot.at)).equals(free));
+    objects = await gpuObjects(lab);
+  }
 });
 
 test('keeps the actions of the workspace while the walls move', async ({ lab }) => {
