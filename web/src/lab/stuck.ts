@@ -7,7 +7,7 @@ import type { Trial } from './slices';
 /** As long as it has not moved. */
 const STILL_S = 3;
 /** Of the way that the tool could have gone. */
-const LEAST_SHARE = 0.3;
+const LEAST_SHARE = 0.4;
 
 const spread = (places_m: Float64Array): number => Math.max(...places_m) - Math.min(...places_m);
 

@@ -2,9 +2,10 @@
 
 import type { Vec2 } from '../lab/geometry';
 import type { Controller } from '../ui/controllers';
-import { drawHead, type Labels, lineOf, strokeCased } from './marks';
+import { drawHead, Labels, lineOf, strokeCased } from './marks';
 import { circle } from './shapes';
 import { pxFromWorld, type View } from './transform';
+import { GOAL_RADIUS_M } from '../net/protocol.gen';
 import type { Ctx } from './sheet';
 import type { Palette } from '../ui/palette';
 
@@ -27,6 +28,13 @@ export interface DrawnGhost {
 function trace(ctx: Ctx, view: View, places: readonly Vec2[]): void {
   ctx.beginPath();
   for (const place of places) ctx.lineTo(...pxFromWorld(view, place));
+}
+
+/** Labels that leave the goal free. */
+export function labelsBeside(view: View, goal_m: Vec2 | undefined): Labels {
+  const labels = new Labels(view.isTurned);
+  if (goal_m) labels.keep(pxFromWorld(view, goal_m), GOAL_RADIUS_M * view.pxPerM);
+  return labels;
 }
 
 /** The labels come last, over the lines of all. */
@@ -58,10 +66,11 @@ export function drawGhosts(
     circle(ctx, tool, TOOL_PX);
     strokeCased(ctx, palette, { colour: line.colour, width_px: 1.5 });
   }
-  for (const { controller, bead_m } of ghosts) {
+  for (const { controller, bead_m, tool_m } of ghosts) {
     const bead = pxFromWorld(view, bead_m);
     drawHead(ctx, palette, controller, bead);
     labels.keep(bead, HEAD_PX);
+    labels.keep(pxFromWorld(view, tool_m), TOOL_PX);
   }
   for (const { label, bead_m } of ghosts) {
     labels.draw(ctx, palette, label, pxFromWorld(view, bead_m), HEAD_PX + 5);

@@ -5,9 +5,9 @@ import { isOver } from '../../lab/contest';
 import type { Vec2 } from '../../lab/geometry';
 import type { Contested, Trial } from '../../lab/slices';
 import type { TraceMessage } from '../../net/protocol.gen';
-import { drawGhosts } from '../../plan/drawGhost';
+import { drawGhosts, labelsBeside } from '../../plan/drawGhost';
 import type { LayerContext, MapLayer } from '../../plan/layer';
-import { Labels, strokeCased } from '../../plan/marks';
+import { strokeCased } from '../../plan/marks';
 import { circle } from '../../plan/shapes';
 import { pxFromWorld } from '../../plan/transform';
 import { seconds } from '../../ui/format';
@@ -47,8 +47,9 @@ export const CHALLENGE_LAYER: MapLayer = {
         const { ghosts = [], sample_s = 1 } = contest.ghosts() ?? {};
         const sample = frame() / FRAMES_PER_S / sample_s;
         const loss = isOver(contest.attempt()) ? contest.report()?.loss : undefined;
+        const goal = lab.goal();
         return (ctx, { view, palette }) => {
-          const labels = new Labels(view.isTurned);
+          const labels = labelsBeside(view, goal);
           const shown = ghosts.flatMap((ghost) => {
             const tool_m = placeAt(ghost.trace.tool_m, sample);
             const bead_m = placeAt(ghost.trace.bead_m, sample);

@@ -2,10 +2,9 @@
 
 import { ghostAt, sampleAt } from '../../lab/comparison';
 import { controllerLabel } from '../../lab/parameters';
-import type { Compared } from '../../lab/slices';
-import { drawGhosts } from '../../plan/drawGhost';
+import type { Compared, Trial } from '../../lab/slices';
+import { drawGhosts, labelsBeside } from '../../plan/drawGhost';
 import type { LayerContext, MapLayer } from '../../plan/layer';
-import { Labels } from '../../plan/marks';
 
 export const GHOSTS_LAYER: MapLayer = {
   id: 'ghosts',
@@ -14,7 +13,7 @@ export const GHOSTS_LAYER: MapLayer = {
   group: 'Motion',
   shownAtFirst: true,
   isUnclipped: true,
-  create: ({ lab }: LayerContext<Compared>) => ({
+  create: ({ lab }: LayerContext<Compared & Trial>) => ({
     aboveWalls: () => {
       const comparison = lab.comparison.shown();
       if (!comparison) return undefined;
@@ -30,7 +29,7 @@ export const GHOSTS_LAYER: MapLayer = {
           const [path_m, ahead_m] = [places.slice(0, now + 1), places.slice(now)];
           return [{ ...ghost, controller, label, path_m, ahead_m }];
         });
-        drawGhosts(ctx, view, palette, ghosts, new Labels(view.isTurned));
+        drawGhosts(ctx, view, palette, ghosts, labelsBeside(view, lab.goal()));
       };
     },
   }),
