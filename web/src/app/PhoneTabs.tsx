@@ -1,6 +1,6 @@
 // The tabs at the foot of a phone. *More* has what has no tab.
 
-import { For, Show, type JSX } from 'solid-js';
+import { For, Show, createEffect, on, type JSX } from 'solid-js';
 import { BookOpen, Ellipsis, FlaskConical, type IconNode, ScrollText, Trophy } from 'lucide';
 import type { PanelName } from '../lab/panels';
 import type { Lab } from '../lab/slices';
@@ -32,6 +32,15 @@ const PANELS: readonly (readonly [string, PanelName])[] = [
 export function PhoneTabs(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
   const more = createPopover('more-panels');
+  createEffect(
+    on(
+      lab.address.view,
+      () => {
+        if (more.open()) more.close();
+      },
+      { defer: true },
+    ),
+  );
   const open = (panel: PanelName | undefined): void => {
     lab.address.show('laboratory');
     if (panel === undefined || lab.panel() === panel) {
