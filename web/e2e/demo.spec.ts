@@ -33,6 +33,8 @@ const CAPTIONS: readonly (readonly [string, (state: StateMessage) => boolean])[]
   ],
   ['Delivered.', ({ deliveries }) => deliveries === 1],
 ];
+/** A software renderer draws the 3-D view slowly. */
+const SMALL = { width: 480, height: 320 };
 const VISITED = /^(You are in control|The bead is lost|Delivered\. Touch)/;
 const WATCHING = 'Another screen runs this demonstration';
 const WAITING = /^One moment/;
@@ -91,8 +93,7 @@ test.afterEach(async ({ page }) => {
 });
 
 test('runs its programme, gives way to a visitor, and returns', async ({ page }) => {
-  // Small, because a software renderer draws the 3-D view slowly.
-  await page.setViewportSize({ width: 480, height: 320 });
+  await page.setViewportSize(SMALL);
   await page.addInitScript(keepCaptions);
   const lab = await Lab.watch(page, `${server.url}/demo`);
   await begun(lab);
@@ -122,7 +123,7 @@ test(
   'shows a late screen, and one that is loaded again, the same badge, sentence and trail',
   LONG,
   async ({ page, browser }) => {
-    await page.setViewportSize({ width: 480, height: 320 });
+    await page.setViewportSize(SMALL);
     const first = await Lab.watch(page, `${server.url}/demo`);
     await begun(first);
     await first.send({ type: 'pause' });
@@ -216,16 +217,18 @@ test(
   'watches on a second screen, and goes on there when the first one leaves',
   LONG,
   async ({ page, browser }) => {
+    await page.setViewportSize(SMALL);
     const first = await Lab.watch(page, `${server.url}/demo`);
     await begun(first);
-    const context = await browser.newContext();
+    const context = await browser.newContext({ viewport: SMALL });
     try {
+      await context.addInitScript(keepCaptions);
       const second = await Lab.watch(await context.newPage(), `${server.url}/demo`);
       await expect(second.page.getByText(WATCHING)).toBeVisible();
       await expect(captionOf(second.page)).toHaveText(/\.$/);
       expect(second.hello.role).toBe('viewer');
       // A touch is ignored.
-      await second.page.mouse.click(300, 300);
+      await second.page.mouse.click(300, 200);
       await first.later(250);
       await expect(second.page.getByText(WATCHING)).toBeVisible();
       expect(second.sent).toEqual({});
@@ -233,7 +236,8 @@ test(
 
       const { trial } = second.scene;
       await page.goto('about:blank');
-      await expect(captionOf(second.page)).toHaveText(FIRST);
+      const captions = () => second.page.evaluate(() => window.ferryCaptions);
+      await until('the first caption', async () => (await captions()).includes(FIRST));
       await until('the part again', () => second.scene.trial > trial && second.state.running);
       expect(second.hello.role).toBe('operator');
       await second.page.goto('about:blank');
@@ -263,6 +267,7 @@ test('waits for its server, and begins again', LONG, async ({ page, watch }) => 
 });
 
 test('loads itself again after its session has ended', LONG, async ({ page }) => {
+  await page.setViewportSize(SMALL);
   const connections = await endFirstSession(page);
   await page.goto(`${server.url}/demo`);
   await expect(captionOf(page)).toHaveText(WAITING);

@@ -98,6 +98,8 @@ for (const view of ['Plan', '3-D']) {
   test(`records a video of the view ${view}`, suite, async ({ lab }) => {
     test.skip(!(await canRecord(lab)), 'This browser cannot record videos.');
     await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.2)[0]);
+    // A software renderer draws the 3-D view slowly.
+    if (view === '3-D') await lab.page.setViewportSize({ width: 700, height: 560 });
     if (view === '3-D') await openSceneView(lab);
     await lab.run();
     await startVideo(lab);

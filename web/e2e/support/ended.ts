@@ -5,7 +5,7 @@ import type { Page } from '@playwright/test';
 /** Must be called before the page is opened. Returns the number of connections so far. */
 export async function endFirstSession(page: Page) {
   let connections = 0;
-  await page.routeWebSocket(/\/live$/, (socket) => {
+  await page.routeWebSocket(/\/live(\?|$)/, (socket) => {
     connections += 1;
     const isFirst = connections === 1;
     const server = socket.connectToServer();
