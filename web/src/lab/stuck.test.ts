@@ -23,7 +23,7 @@ it('a tool that moves on, or that has stood for less than three seconds, is not 
       SPEED_M_S,
     ),
   ).toBe(false);
-  const late = driven((time_s) => SPEED_M_S * Math.min(time_s, 4));
+  const late = driven((time_s) => SPEED_M_S * Math.min(time_s, 4.5));
   expect(stoodStill(late, 6, SPEED_M_S)).toBe(false);
 });
 

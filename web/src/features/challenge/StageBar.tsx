@@ -96,9 +96,7 @@ export function StageBar(props: {
               </button>
             </Match>
             <Match when={waits()}>
-              <p>
-                Roll the bead into the green ring. The clock starts when you steer.
-              </p>
+              <p>Roll the bead into the green ring. The clock starts when you steer.</p>
               <button
                 type="button"
                 class="small primary"
