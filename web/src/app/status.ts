@@ -50,10 +50,13 @@ function runningStatus(state: StateMessage, isStuck: boolean): Status {
       ? undefined
       : `${centimetres(state.goal_distance_m)} to the goal`;
   if (controller === 'robot') return plain('A robot client moves the arm', whose);
-  if (trouble) return bad(troubleWords(name, trouble).replace(/\.$/, ''), whose);
+  if (trouble) {
+    const words = troubleWords(name, trouble).replace(/\.$/, '');
+    return bad(words, { ...whose, short: `${name} cannot go on` });
+  }
   switch (phase.code) {
     case 'holding':
-      if (refusal) return bad(capital(holdWords(refusal)), whose);
+      if (refusal) return bad(capital(holdWords(refusal)), { ...whose, short: 'The arm holds' });
       return state.goal_m
         ? plain('The arm holds', whose)
         : plain('Click the map to set a goal', { ...whose, short: 'Tap the map to set a goal' });
