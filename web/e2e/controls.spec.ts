@@ -1,9 +1,11 @@
 // The controls of the page by mouse, keyboard and touch. e2e/controls lists what each changes.
 
+import { readFile, readdir } from 'node:fs/promises';
+import { fileURLToPath } from 'node:url';
 import { PHONE as PHONE_CONTROLS } from './controls/phone';
-import { exercise, sectionsFor } from './controls/table';
+import { ELSEWHERE, exercise, sectionsFor } from './controls/table';
 import type { Section } from './controls/row';
-import { DAILY, LONG, type Lab, test } from './fixtures';
+import { DAILY, LONG, type Lab, expect, test } from './fixtures';
 import { DESKTOP, PHONE, TABLET } from './support/browser';
 import { INPUT_METHODS, type InputMethod } from './support/inputMethods';
 
@@ -58,4 +60,28 @@ test.describe('on a phone', () => {
   test('each control of the foot works by touch', async ({ lab }) => {
     await exerciseAll(lab, new INPUT_METHODS.touch(lab), PHONE_CONTROLS);
   });
+});
+
+/** The titles of all browser tests and component tests. A title may have parts that its test fills in. */
+async function titles() {
+  const found: RegExp[] = [];
+  const web = fileURLToPath(new URL('..', import.meta.url));
+  for (const folder of ['e2e', 'src']) {
+    const names = await readdir(`${web}${folder}`, { recursive: true });
+    for (const name of names.filter((one) => /\.(spec|test)\.tsx?$/.test(one))) {
+      const text = await readFile(`${web}${folder}/${name}`, 'utf8');
+      for (const [, , title = ''] of text.matchAll(/\b(?:test|it)\(\s*(['`])([^'`]+)\1/g)) {
+        const literal = title.replaceAll(/[.*+?^()|[\]\\]/g, '\\$&');
+        found.push(new RegExp(`^${literal.replaceAll(/\$\{[^}]+\}/g, '.+')}$`));
+      }
+    }
+  }
+  return found;
+}
+
+test('the tests exist that use a control in place of the table', async () => {
+  const all = await titles();
+  expect(all.length).toBeGreaterThan(100);
+  const missing = [...ELSEWHERE].filter((title) => !all.some((one) => one.test(title)));
+  expect(missing).toEqual([]);
 });

@@ -12,6 +12,12 @@ const NAME = 'easy-controls';
 const challenge = (lab: Lab) => lab.scene.challenge;
 const trial = (lab: Lab) => lab.scene.trial;
 
+/** Of the browser. */
+const tabs = (lab: Lab) => lab.page.context().pages().length;
+async function closeOtherTabs(lab: Lab) {
+  for (const one of lab.page.context().pages()) if (one !== lab.page) await one.close();
+}
+
 async function list(lab: Lab) {
   await showPanel('Play')(lab);
   if (lab.scene.challenge)
@@ -66,11 +72,11 @@ export const CHALLENGE: Section = {
         await lab.page.getByRole('textbox', { name: 'Word' }).fill('other');
       },
     },
-    'link All boards': { elsewhere: 'the board of a challenge' },
+    'link All boards': { see: tabs, ready: list, after: closeOtherTabs },
     'link Link': { elsewhere: PLAYED },
-    'link Board': { elsewhere: 'the board of a challenge' },
     'link Play in a session of your own': { elsewhere: VIEWER },
     'button Start': { see: (lab) => lab.state.running, ready: begin },
+    'link Board': { see: tabs, ready: beginOnce, after: closeOtherTabs },
     'button From the start': { see: trial, ready: beginOnce },
     'button Try again': { see: trial, ready: spoil },
     'button Result': { elsewhere: PLAYED },

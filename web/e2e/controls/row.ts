@@ -27,6 +27,9 @@ export interface Elsewhere {
 /** Keys are role and accessible name. A name between slashes is a regular expression. */
 export type Rows = Record<string, Row | Elsewhere | readonly Row[]>;
 
+/** In place of a title, for a control that appears too late for a test. */
+export const NOT_TESTED = 'not tested';
+
 export interface Section {
   readonly name: string;
   /** Opens the part of the page that has the controls. Runs once. */

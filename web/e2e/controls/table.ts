@@ -11,7 +11,7 @@ import { EXPERIMENTS, LAYERS, PLAYBACK, VIEWS, WIDE_WINDOW, WORKSPACE } from './
 import { PARAMETERS, PRESETS, SOME_PARAMETERS } from './parameters';
 import { PHONE } from './phone';
 import { RECOVERY } from './recovery';
-import type { Row, Section } from './row';
+import { NOT_TESTED, type Row, type Section } from './row';
 import { STEER } from './steer';
 import { TRAIN } from './train';
 import { DISTURB, EVALUATE, MAGNET, PLOTS, RECORDINGS, SCENE_VIEW } from './tools';
@@ -133,6 +133,14 @@ export async function exercise(input: InputMethod, key: string, row: Row) {
   }
   await row.after?.(lab, input);
 }
+
+/** Titles of the tests that use a control in place of this table. */
+export const ELSEWHERE = new Set(
+  [...Object.values(SECTIONS_BY_TEST).flat(), PHONE]
+    .flatMap(({ rows }) => Object.values(rows))
+    .flatMap((row) => ('elsewhere' in row ? [row.elsewhere] : []))
+    .filter((title) => title !== NOT_TESTED),
+);
 
 const ROWS = [...Object.values(SECTIONS_BY_TEST).flat(), PHONE].flatMap(({ rows }) =>
   Object.keys(rows).map((key) => ({ key, ...parse(key) })),

@@ -8,6 +8,7 @@ import { cameraAtRest, freeInPicture, px } from '../support/scene';
 import { must } from '../support/wait';
 import { bound } from './parameters';
 import {
+  NOT_TESTED,
   type Row,
   type Section,
   type Work,
@@ -237,7 +238,7 @@ const REPORT_ROWS: Section['rows'] = {
   'button Cancel': { elsewhere: 'cancels an evaluation that a viewer watches' },
   'button /^Set it up: episode /': { elsewhere: 'sets up a failed episode again' },
   // Not tested: it appears only after more than 50 failures, which take minutes.
-  'button /^Show more of /': { elsewhere: 'not tested' },
+  'button /^Show more of /': { elsewhere: NOT_TESTED },
 };
 
 export const EVALUATE: Section = {
