@@ -47,8 +47,16 @@ test('passes released control to the viewer that requested it', async ({ lab, op
   await expect(viewer.button('Run')).toBeEnabled();
   await expect(lab.button('Run')).toHaveCount(0);
 
-  // A viewer can take free control.
+  // The other one keeps it at first, and releases it later.
+  await lab.button('Take control').click();
+  await viewer.button('Keep').click();
+  await expect(viewer.button('Give control')).toHaveCount(0);
+  await viewer.isRole('operator');
   await viewer.releaseControl();
+  await lab.isRole('operator');
+
+  // A viewer can take free control.
+  await lab.releaseControl();
   await lab.takeControl();
 });
 

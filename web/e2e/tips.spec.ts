@@ -20,6 +20,9 @@ test('opens on a goal in the colon, with a tip', async ({ page, watch }) => {
     expect(await violations(page)).toEqual([]);
     await lab.run();
     await until('transport', () => lab.state.phase.code === 'transporting');
+    await expect(page.locator('.status-words')).toHaveText(
+      /^RL carries the bead to the goal[\d.]+ cm to the goal$/,
+    );
     await page.goto('about:blank');
   } finally {
     await server.stop();
