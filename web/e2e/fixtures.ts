@@ -40,18 +40,12 @@ interface TestFixtures {
   openLab: (options?: OpenOptions) => Promise<Lab>;
 }
 
-/**
- * Tips and closed panels are tested in tips.spec.ts and panels.spec.ts. Elsewhere tips would cover a part of the map,
- * and the tests use all panels.
- */
+/** Tips and the small camera image are tested in tips.spec.ts and panels.spec.ts. Elsewhere the tests use all of it. */
 const skipTips = (page: Page) =>
   page.addInitScript(() => {
     localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
-    for (const panel of ['camera', 'lower', 'aside']) {
-      if (localStorage.getItem(`ferry.panel.${panel}`) === null) {
-        localStorage.setItem(`ferry.panel.${panel}`, 'open');
-      }
-    }
+    if (localStorage.getItem('ferry.panel.camera') === null)
+      localStorage.setItem('ferry.panel.camera', 'open');
   });
 
 /** Set to draw less often. */
