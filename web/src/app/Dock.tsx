@@ -88,6 +88,21 @@ function Asked(props: { lab: Lab }): JSX.Element {
   );
 }
 
+function PlotsButton(): JSX.Element {
+  return (
+    <button
+      type="button"
+      aria-label="Plots"
+      aria-pressed={hasLanes()}
+      title="Plots (P)"
+      onClick={toggleLanes}
+    >
+      <Icon of={Activity} />
+      <span>Plots</span>
+    </button>
+  );
+}
+
 /** In place of the transport: why a viewer cannot act, and what can be done. */
 function Watching(props: { lab: Lab }): JSX.Element {
   return (
@@ -97,6 +112,9 @@ function Watching(props: { lab: Lab }): JSX.Element {
         <strong>You are watching.</strong>
         <span>Another browser steers. Look around freely.</span>
       </p>
+      <div class="dock-tools">
+        <PlotsButton />
+      </div>
       <button type="button" class="primary" onClick={() => void takeControl(props.lab)}>
         Take control
       </button>
@@ -152,16 +170,7 @@ export function Dock(props: { lab: Lab }): JSX.Element {
               <Icon of={HandGrab} />
               <span>Disturb</span>
             </button>
-            <button
-              type="button"
-              aria-label="Plots"
-              aria-pressed={hasLanes()}
-              title="Plots (P)"
-              onClick={toggleLanes}
-            >
-              <Icon of={Activity} />
-              <span>Plots</span>
-            </button>
+            <PlotsButton />
             <KeptRuns lab={lab} />
           </div>
         </div>

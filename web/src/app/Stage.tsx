@@ -23,6 +23,8 @@ import type { ViewMode } from './viewMode';
 import './Stage.css';
 
 const HELP_ID = 'workspace-help';
+/** Of the height of the 3-D picture, for the band below it. */
+const BAND_SHARE = 0.09;
 
 export function Stage(props: {
   lab: Lab;
@@ -98,6 +100,7 @@ export function Stage(props: {
               {...surfaceProps}
               mode={isScene() ? 'scene' : 'plan'}
               isTurned={isUpright()}
+              below={BAND_SHARE}
               onPlan={() => {
                 props.onMode('plan');
               }}
@@ -123,7 +126,9 @@ export function Stage(props: {
         <Switch
           fallback={
             <p id={HELP_ID} class="stage-hint">
-              <WorkspaceHint steers={lab.steering.isActive()} scene={isScene()} />
+              <Show when={lab.hello()?.role !== 'viewer'}>
+                <WorkspaceHint steers={lab.steering.isActive()} scene={isScene()} />
+              </Show>
             </p>
           }
         >
@@ -163,7 +168,7 @@ export function Stage(props: {
           </button>
         </Show>
         <output class="readout number" aria-live="off">
-          <Show when={readout()} fallback={<ScaleBar />}>
+          <Show when={readout()} fallback={!isScene() && <ScaleBar />}>
             {(here) => (
               <>
                 <Show when={here().wall}>

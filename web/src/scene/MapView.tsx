@@ -16,6 +16,8 @@ export function MapView(
     onPlan: () => void;
     /** Shift of the 3-D picture to the right, as a share of its width. */
     shift?: number;
+    /** Share of its height that stays free below. */
+    below?: number;
   },
 ): JSX.Element {
   const [shown, setShown] = createSignal(untrack(() => props.mode));

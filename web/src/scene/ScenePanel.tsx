@@ -54,6 +54,8 @@ export function ScenePanel(
     isBold?: boolean;
     /** Shift of the picture to the right, as a share of its width: on the left there is text. */
     shift?: number;
+    /** Share of its height that stays free below, at the viewpoints. */
+    below?: number;
     /** The picture of the plan view, if the user comes from there. */
     plan?: PlanPicture | undefined;
     /** The camera flies to that picture. */
@@ -90,7 +92,7 @@ export function ScenePanel(
         setViewpoint(drawing()?.orbit.viewpoint);
       },
       isBold: props.isBold ?? false,
-      shift: props.shift ?? 0,
+      rest: { shift: props.shift ?? 0, below: props.below ?? 0 },
       isSlow: drawsSlowly(),
       wantsLessMotion,
       plan: props.plan,

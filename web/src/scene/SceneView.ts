@@ -23,6 +23,7 @@ import { Table } from './table';
 import { Tool } from './tool';
 import type { TableView, Vec2 } from '../lab/geometry';
 import type { Palette } from '../ui/palette';
+import type { Lens } from './viewpoints';
 
 const MAX_PIXEL_RATIO = 2;
 const NO_WEBGL =
@@ -61,8 +62,8 @@ export interface SceneOptions {
   readonly onView: (view: TableView) => void;
   /** Bead, trails and goal can be recognised from far away. */
   readonly isBold: boolean;
-  /** Of the picture to the right, as a share of its width. */
-  readonly shift: number;
+  /** Where the stage is in the picture at the viewpoints. */
+  readonly rest: Pick<Lens, 'shift' | 'below'>;
   /** There is no graphics card. */
   readonly isSlow: boolean;
   readonly wantsLessMotion: () => boolean;
@@ -109,7 +110,7 @@ export class SceneView {
       () => {
         this.updateView();
       },
-      options.shift,
+      options.rest,
       options.wantsLessMotion,
       options.plan,
     );

@@ -94,7 +94,7 @@ const CORNERS: readonly Vec2[] = [
 function fromPlan(jumps: boolean) {
   const orbit = new OrbitCamera(
     () => undefined,
-    0,
+    { shift: 0 },
     () => jumps,
     PLAN,
   );

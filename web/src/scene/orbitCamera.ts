@@ -11,6 +11,7 @@ import {
   hidingAt,
   type Seat,
   seatOf,
+  type Lens,
   type Stage,
   stageOf,
   turnedArrow,
@@ -64,8 +65,8 @@ export class OrbitCamera implements Motion {
 
   constructor(
     private readonly onChange: () => void,
-    /** Shift of the picture at the viewpoints. */
-    private readonly restShift = 0,
+    /** Of the picture at the viewpoints. */
+    private readonly rest: Pick<Lens, 'shift' | 'below'> = { shift: 0 },
     /** Flights are jumps. */
     private readonly jumps: () => boolean = () => true,
     /** The camera starts there. */
@@ -117,7 +118,7 @@ export class OrbitCamera implements Motion {
   /** Flies to a viewpoint, or is there at once. */
   take(name: ViewpointName, isJump = this.jumps()): void {
     if (!this.stage) return;
-    const lens = { tangent: TANGENT, aspect: this.camera.aspect, shift: this.restShift };
+    const lens = { tangent: TANGENT, aspect: this.camera.aspect, ...this.rest };
     const to = this.poseOf(seatOf(name, this.stage, lens));
     this.viewpoint = name;
     this.fly(to, isJump);
@@ -199,7 +200,7 @@ export class OrbitCamera implements Motion {
 
   private poseOf({ target_m, toCamera_m: [x, y, z] }: Seat): Pose {
     const seat = new Spherical().setFromCartesianCoords(x, z, -y);
-    return { target: new Vector3(...target_m), seat, shift: this.restShift };
+    return { target: new Vector3(...target_m), seat, shift: this.rest.shift };
   }
 
   private turn(left_rad: number, up_rad: number): void {

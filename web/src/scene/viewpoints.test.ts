@@ -90,6 +90,23 @@ test('the tray is large, and what limits its size reaches the edge of the pictur
   expect(trayWidth(cameraOf('Top', 868 / 648))).toBeGreaterThan(0.9);
 });
 
+test('a picture with free space below has everything in it and nothing there', () => {
+  const { target_m, toCamera_m } = seatOf('Home', STAGE, {
+    tangent: TANGENT,
+    aspect: 1.3,
+    shift: 0,
+    below: 0.1,
+  });
+  const camera = new PerspectiveCamera(FIELD_DEG, 1.3, 0.01, 20);
+  camera.up.set(0, 0, 1);
+  camera.position.set(...toCamera_m).add(new Vector3(...target_m));
+  camera.lookAt(new Vector3(...target_m));
+  camera.updateMatrixWorld();
+  expect(farthest(camera, ALL)).toBeLessThan(1);
+  const ys = STAGE.tray.map(({ at }) => at.clone().project(camera).y);
+  expect(Math.min(...ys)).toBeGreaterThan(-0.8);
+});
+
 test('a shifted picture has everything in it, and its middle to the right', () => {
   const camera = cameraOf('Home', 1.6, 0.15);
   expect(farthest(camera, ALL)).toBeLessThan(1);

@@ -31,6 +31,8 @@ export interface Lens {
   readonly aspect: number;
   /** Shift of the picture to the right, as a share of its width. */
   readonly shift: number;
+  /** Share of its height that stays free below. */
+  readonly below?: number;
 }
 
 /** Factor of the picture's size over what is in it. */
@@ -81,7 +83,8 @@ function reach(balls: readonly Ball[], side: Vector3, back: Vector3, tangent: nu
 }
 
 /** The nearest camera in a direction that has the whole stage in its picture. */
-export function seatOf(name: ViewpointName, stage: Stage, { tangent, aspect, shift }: Lens): Seat {
+export function seatOf(name: ViewpointName, stage: Stage, lens: Lens): Seat {
+  const { tangent, aspect, shift, below = 0 } = lens;
   const back = new Vector3(...DIRECTIONS[name]);
   const right = new Vector3(0, 0, 1).cross(back).normalize();
   const up = new Vector3().crossVectors(back, right);
@@ -89,19 +92,21 @@ export function seatOf(name: ViewpointName, stage: Stage, { tangent, aspect, shi
   const high = tangent / ROOM;
   const wide = (tangent * aspect * (1 - 2 * Math.abs(shift))) / ROOM;
   const spans = [
-    [right, wide],
-    [up, high],
+    [right, wide, wide],
+    [up, high, high * (1 - 2 * below)],
   ] as const;
-  // Per side: where the camera is across the view, and how far back.
-  const fits = spans.map(([side, slope]) => {
-    const [more, less] = [
-      reach(balls, side, back, slope),
-      reach(balls, side.clone().negate(), back, slope),
-    ];
-    return { side, at: (more - less) / 2, back: (more + less) / (2 * slope) };
-  });
-  const camera = back.clone().multiplyScalar(Math.max(...fits.map((fit) => fit.back)));
-  for (const { side, at } of fits) camera.addScaledVector(side, at);
+  // Per side: what the stage needs toward it and toward the other one.
+  const fits = spans.map(([side, toSide, toOther]) => ({
+    side,
+    slant: toSide - toOther,
+    more: reach(balls, side, back, toSide),
+    less: reach(balls, side.clone().negate(), back, toOther),
+    slopes: toSide + toOther,
+  }));
+  const far = Math.max(...fits.map(({ more, less, slopes }) => (more + less) / slopes));
+  const camera = back.clone().multiplyScalar(far);
+  for (const { side, more, less, slant } of fits)
+    camera.addScaledVector(side, (more - less - slant * far) / 2);
   // The target is on the view's axis, beside the middle of the tray.
   const middle = stage.tray
     .reduce((sum, { at }) => sum.add(at), new Vector3())
