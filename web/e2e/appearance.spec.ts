@@ -20,6 +20,7 @@ import {
   plots,
   prepare,
   refusalsHelpAndRoles,
+  results,
   sceneView,
   slug,
   view,
@@ -39,6 +40,7 @@ const PLACES: Record<string, Places> = {
   panels: inTurn([panels, plots]),
   'controllers, refusals, help and roles': inTurn([controllers, refusalsHelpAndRoles]),
   'a challenge': challenge,
+  results,
   'the 3-D view': sceneView,
 };
 

@@ -11,6 +11,7 @@ import {
   setUpButton,
   showTabs,
 } from './preconditions';
+import { makeMap } from './recovery';
 import { must, until } from './wait';
 
 /** The controllers run a challenge before their scores are known. */
@@ -230,6 +231,32 @@ export const challenge: Places = async function* (lab) {
   yield { name: 'void attempt', panel: lab.page.locator('main') };
   await lab.page.getByRole('button', { name: /^(All challenges|Give up)$/ }).click();
   await until('no challenge', () => !lab.scene.challenge);
+};
+
+/** Panels with results: a comparison, a recovery map, a lesson. */
+export const results: Places = async function* (lab) {
+  const { page } = lab;
+  await showTabs(lab);
+  await lab.panel('Compare');
+  await page.getByRole('button', { name: /^Compare from/ }).click();
+  await until('the comparison', () => lab.comparison?.running === false, GHOSTS_MS);
+  await lab.drawn();
+  yield { name: 'comparison', panel: inspector(page) };
+  await lab.button('Clear ghosts').click();
+  await makeMap(lab);
+  await page.locator('[role=application] > .cell').first().click();
+  await page.getByTestId('recovery-cell').waitFor();
+  yield { name: 'recovery map', panel: inspector(page) };
+  await lab.panel('Learn');
+  await page.getByRole('button', { name: /^Meet the magnet/ }).click();
+  yield { name: 'lesson: predict', panel: inspector(page) };
+  await page
+    .getByRole('radiogroup')
+    .getByRole('radio', { name: /^Right below/ })
+    .check();
+  await lab.button('Next').click();
+  yield { name: 'lesson: run', panel: inspector(page) };
+  await lab.button('All lessons').click();
 };
 
 export const sceneView: Places = async function* (lab) {
