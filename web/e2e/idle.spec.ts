@@ -28,25 +28,30 @@ test('a page at rest makes no request, in any view, after each panel was open', 
   await expect(page.getByRole('tab')).toHaveText(['Now', 'Story', 'Learn', 'Play', 'Test', 'Tune']);
   for (const panel of PANELS) await viewer.panel(panel);
   for (const name of ['Layers', 'Layers', 'Plots']) await viewer.button(name).click();
+  /** Waits for the requests of what was opened. Returns the number of all so far. */
+  const settled = async (pause_ms: number) => {
+    let count = -1;
+    await until('no further request', async () => {
+      const before = count;
+      count = requests.length;
+      await delay(pause_ms);
+      return before === requests.length;
+    });
+    return count;
+  };
   for (const name of ['Draw', 'Train', 'Recordings', 'Evaluate', 'Lab']) {
     await page
       .getByRole('navigation', { name: 'Views' })
       .getByRole('link', { name, exact: true })
       .click();
-    let count = -1;
-    await until('the requests of the view', async () => {
-      const before = count;
-      count = requests.length;
-      await delay(settleMs(name));
-      return before === requests.length;
-    });
+    const count = await settled(settleMs(name));
     await delay(REST_MS);
     expect(requests.slice(count), name).toEqual([]);
   }
   // What another browser changes is shown all the same, with the drawings of the maps as pictures.
   await viewer.setUp();
-  await page.waitForLoadState('networkidle');
-  const before = requests.length;
+  await page.getByRole('radiogroup', { name: 'Map' }).waitFor();
+  const before = await settled(settleMs('Lab'));
   const added = await lab.page.request.post(`${server.url}/api/maps?name=rest`, {
     data: DRAWING,
     headers: { 'content-type': 'image/svg+xml' },
