@@ -1,8 +1,11 @@
-import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { appendFileSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
 import { type Plugin, defineConfig } from 'vite';
 import solid from 'vite-plugin-solid';
+
+/** What the page is made of, with its licences. The help links to it. */
+const LICENSES = 'licenses.txt';
 
 /** Writes each file also as gzip and as brotli, where that is smaller. The server sends what the browser accepts. */
 const compressed = (): Plugin => ({
@@ -21,6 +24,16 @@ const compressed = (): Plugin => ({
         if (packed.length < content.length) writeFileSync(`${path}.${ending}`, packed);
       }
     }
+  },
+});
+
+/** The font is no module, so that Vite does not list its licence. */
+const fontLicense = (): Plugin => ({
+  name: 'font-license',
+  apply: 'build',
+  writeBundle({ dir = '' }) {
+    const text = readFileSync('node_modules/@fontsource-variable/inter/LICENSE');
+    appendFileSync(join(dir, LICENSES), `\n\n## Inter (OFL-1.1)\n\n${text.toString()}`);
   },
 });
 
@@ -67,7 +80,7 @@ export default defineConfig({
     // Scripts and styles find each other from where they lie: the server may be at any path. It corrects its own pages.
     renderBuiltUrl: (name, { hostType }) => (hostType === 'html' ? `/${name}` : { relative: true }),
   },
-  plugins: [solid(), anyLanguage(), compressed(), opensSessions()],
+  plugins: [solid(), anyLanguage(), fontLicense(), compressed(), opensSessions()],
   // Libraries are bundled beforehand for `make dev` and for tests of components.
   optimizeDeps: { rolldownOptions: { plugins: [anyLanguage()] } },
   server: {
@@ -89,6 +102,7 @@ export default defineConfig({
     // The page's policy is `default-src 'self'`: a `data:` address would be refused.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
+    license: { fileName: LICENSES },
     // The page, the one that Rerun's viewer has for itself, the one to log in with, and what is there in place of a page
     // that is not.
     rolldownOptions: {

@@ -61,3 +61,13 @@ test('a lesson has an address', async ({ lab, session }) => {
   await page.goto(`${session.url}/learn/nothing`);
   await expect(page.getByText('There is no lesson “nothing”.')).toBeVisible();
 });
+
+test('the help leads to the licences of all that the page is made of', async ({ lab }) => {
+  const { page } = lab;
+  await lab.button('Help').click();
+  await page.getByRole('link', { name: 'libraries and a font of others' }).click();
+  for (const part of ['## solid-js', '## three', '## Inter (OFL-1.1)'])
+    await expect(page.getByText(part)).toBeVisible();
+  await page.goBack();
+  await lab.live();
+});

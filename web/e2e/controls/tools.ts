@@ -147,6 +147,9 @@ export const SCENE_VIEW: Section = {
       ready: (lab) => lab.button('Help').click(),
       after: (lab) => lab.page.keyboard.press('Escape'),
     },
+    'link libraries and a font of others': {
+      elsewhere: 'the help leads to the licences of all that the page is made of',
+    },
     'button Help': {
       see: dialogs,
       after: (lab) => lab.page.keyboard.press('Escape'),

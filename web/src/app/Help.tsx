@@ -5,6 +5,7 @@ import { For, createEffect, createSignal, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from './pageShortcuts';
 import { attachShortcuts, keyName } from '../ui/shortcuts';
 import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS } from '../lab/parameters';
+import { addressOf } from '../net/base';
 import { createChoice } from '../ui/storage';
 import type { Lab } from '../lab/slices';
 import { Glyph } from '../ui/Glyph';
@@ -116,6 +117,10 @@ export function Help(props: { lab: Lab }): JSX.Element {
           />
           These keys work everywhere on the page. The keys of the workspace always work there.
         </label>
+        <p>
+          Ferry is free software, MIT or Apache-2.0. The page is made with{' '}
+          <a href={addressOf('/licenses.txt')}>libraries and a font of others</a>.
+        </p>
       </form>
     </dialog>
   );
