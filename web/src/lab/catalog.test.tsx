@@ -53,7 +53,7 @@ it('watches one training, has each of its points once, and asks again after a lo
   await expect.poll(asked, { timeout: 5000 }).toEqual(['training-1', 'training-1']);
   expect(updates()).toEqual([100, 250]);
   send('training-1', 0, 100, 250, 300);
-  expect(updates()).toEqual([100, 250, 300]);
+  await expect.poll(updates).toEqual([100, 250, 300]);
 
   setId('training-2');
   expect(updates()).toEqual([]);
