@@ -17,7 +17,7 @@ test('everything that a page below a path asks for is below that path', async ({
   await expect(page.getByTestId('connection')).toHaveAttribute('data-link', 'live');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await lab.view('Recordings').click();
-  await page.getByRole('link', { name: 'Download anna' }).waitFor();
+  await page.getByRole('link', { name: 'Download the Rerun file of anna' }).waitFor();
   for (const link of await page.getByRole('link').all()) {
     expect(await link.getAttribute('href')).toMatch(/^(\/ferry\/|\?|#)/);
   }
