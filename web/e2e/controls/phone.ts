@@ -36,6 +36,7 @@ export const PHONE: Section = {
         opens(openMore),
       ]),
     ),
+    'button Step ¼ s': { see: (lab) => lab.state.tick, ready: openMore },
     'button 3-D': toggle(isPressed),
   },
 };

@@ -2,6 +2,7 @@
 
 import { For, Show, createEffect, on, type JSX } from 'solid-js';
 import { BookOpen, Ellipsis, FlaskConical, type IconNode, ScrollText, Trophy } from 'lucide';
+import { Transport } from '../features/playback/Transport';
 import type { PanelName } from '../lab/panels';
 import type { Lab } from '../lab/slices';
 import { Icon } from '../ui/Icon';
@@ -88,6 +89,9 @@ export function PhoneTabs(props: { lab: Lab }): JSX.Element {
                   )}
                 </For>
               </div>
+              <Show when={lab.address.view() === 'laboratory'}>
+                <Transport lab={lab} />
+              </Show>
               <ViewLinks lab={lab} />
               <div class="phone-foot">
                 <HelpButton />

@@ -20,6 +20,8 @@ export function Transport(props: { lab: Session & Trial & Notices }): JSX.Elemen
     const all = [...new Set([...SPEEDS, target()])].sort((a, b) => a - b);
     return all.map((factor) => [String(factor), speedName(factor)] as const);
   });
+  const controlStep = (): number =>
+    ticksToControlStep(lab.state()?.tick ?? 0, lab.scene()?.tick_s ?? 0.008);
   return (
     <div class="run-buttons">
       <CommandButton
@@ -44,12 +46,21 @@ export function Transport(props: { lab: Session & Trial & Notices }): JSX.Elemen
         disabled={running()}
         title="One tick of 8 ms (.); with Shift one control step, a quarter of a second (,)"
         command={({ shiftKey }) => {
-          const tick = lab.state()?.tick ?? 0;
-          const ticks = shiftKey ? ticksToControlStep(tick, lab.scene()?.tick_s ?? 0.008) : 1;
-          return { type: 'step', ticks };
+          return { type: 'step', ticks: shiftKey ? controlStep() : 1 };
         }}
       >
         <Icon of={StepForward} />
+      </CommandButton>
+      {/* For fingers, which have no Shift. */}
+      <CommandButton
+        lab={lab}
+        at="playback"
+        class="ghost quarter"
+        aria-label="Step ¼ s"
+        disabled={running()}
+        command={() => ({ type: 'step', ticks: controlStep() })}
+      >
+        ¼ s
       </CommandButton>
       <CommandButton
         lab={lab}
