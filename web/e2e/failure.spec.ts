@@ -61,5 +61,5 @@ test('goes on after a failure, and compares from the start', LONG, async ({ open
   expect(lab.sent.fork?.tick, 'it starts with the goal').toBe(0);
   const rows = lab.page.getByRole('table', { name: /^Results of each/ }).getByRole('row');
   await expect(rows.filter({ hasText: 'ERRT' })).toContainText('delivered');
-  await expect(rows.filter({ hasText: 'Attractor' })).toContainText('stuck');
+  await expect(rows.filter({ hasText: 'Attractor' })).toContainText('out of steps');
 });

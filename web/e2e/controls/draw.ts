@@ -114,6 +114,7 @@ export const DRAW: Section = {
       after: async (lab) => {
         const name = lab.scene.map;
         expect(name).toContain('drawn-by-');
+        await lab.page.getByRole('heading', { name: 'Set up' }).waitFor();
         await showTabs(lab);
         await lab.reset({ map: 'posts' });
         const { origin } = new URL(lab.page.url());

@@ -1,6 +1,6 @@
 // The first visit: the scene, one sentence, and three ways to begin.
 
-import { Show, type JSX } from 'solid-js';
+import { Show, createEffect, type JSX } from 'solid-js';
 import { ArrowRight, BookOpen, HandGrab, type IconNode, Trophy } from 'lucide';
 import type { PanelName } from '../lab/panels';
 import type { Lab } from '../lab/slices';
@@ -28,6 +28,11 @@ export function FirstVisit(props: {
     const [now, at] = [interaction.view(), lab.state()?.bead_m];
     return now && at && now.toPx([at[0], at[1]]);
   };
+  // A pull begins the trial: the arm fetches the bead.
+  createEffect(() => {
+    if (interaction.act().kind === 'held' && lab.canOperate() && !lab.state()?.running)
+      void lab.send('workspace', { type: 'run' });
+  });
   const begin = (panel: PanelName): void => {
     lab.showPanel(panel);
     props.onEnd();

@@ -90,7 +90,7 @@ export function PhoneTabs(props: { lab: Lab }): JSX.Element {
                 </For>
               </div>
               <Show when={lab.address.view() === 'laboratory'}>
-                <Transport lab={lab} />
+                <Transport lab={lab} inMenu />
               </Show>
               <ViewLinks lab={lab} />
               <div class="phone-foot">

@@ -1,6 +1,6 @@
 // The stage: the map or the 3-D view, with a band above and below it. A click sets the goal; dragging the bead disturbs it.
 
-import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-js';
+import { Match, Show, Switch, createEffect, createMemo, untrack, type JSX } from 'solid-js';
 import { CircleQuestionMark, Maximize } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
 import { CameraView } from '../features/steer/CameraView';
@@ -72,7 +72,8 @@ export function Stage(props: {
     return at !== undefined && at > 0.4 * stage.clientHeight;
   });
   createEffect(() => {
-    if (isPhone() && interaction.act().kind === 'held' && lab.panel() !== undefined)
+    const { kind } = interaction.act();
+    if (isPhone() && (kind === 'held' || kind === 'steering') && untrack(lab.panel))
       lab.closePanel();
   });
   const surfaceProps = {

@@ -71,7 +71,7 @@ function runningStatus(state: StateMessage, isStuck: boolean): Status {
         ? plain('You carry the bead', { ...whose, more })
         : plain(`${name} carries the bead to the goal`, {
             ...whose,
-            short: `${name} carries the bead`,
+            short: `${name} carries`,
             more,
           });
     case 'settling':
@@ -104,7 +104,11 @@ export function statusOf(
     phase.code === 'lifted_off'
   )
     return runningStatus(state, isStuck);
-  return plain(state.tick === 0 ? 'Ready to run' : 'Paused', { controller: state.controller });
+  const { controller } = state;
+  if (state.tick > 0) return plain('Paused', { controller });
+  return state.goal_m || controller === 'you' || controller === 'robot'
+    ? plain('Ready to run', { controller })
+    : plain('Click the map to set a goal', { controller, short: 'Tap the map to set a goal' });
 }
 
 function attemptStatus(attempt: AttemptStanding): Status {

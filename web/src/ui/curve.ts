@@ -215,6 +215,8 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
           pxAlign: 0,
           spanGaps: line.joinsGaps ?? false,
           dash: dashesOf(line, 1.5),
+          // Dots are dashes of no length.
+          cap: 'round' as const,
           points: { show: line.hasPoints ?? false, size: 5 },
         })),
       ],

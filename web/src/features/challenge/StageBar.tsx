@@ -7,6 +7,7 @@ import { isOver } from '../../lab/contest';
 import type { ByHand, Contested, Panels, Session, Trial } from '../../lab/slices';
 import type { AttemptStanding } from '../../net/protocol.gen';
 import { seconds } from '../../ui/format';
+import { isPhone } from '../../ui/windowSize';
 import { penaltyWords, verdict } from './words';
 import './stage.css';
 
@@ -38,7 +39,7 @@ export function StageBar(props: {
     if (!state || !isOver(attempt)) return undefined;
     if (state.running) return 'The attempt is over. What happens now does not count.';
     return state.tick < state.newest_tick
-      ? 'This is a moment of your attempt. Drag the timeline below to see the rest; what you do from here does not count.'
+      ? 'A moment of your attempt. The time line has the rest; what you do from here does not count.'
       : undefined;
   };
   const Again = (own: { isPrimary: boolean }): JSX.Element => (
@@ -56,6 +57,8 @@ export function StageBar(props: {
     </CommandButton>
   );
   const start = (): void => {
+    // The sheet may hide the goal.
+    if (isPhone()) lab.closePanel();
     void lab.send('playback', { type: 'run' });
   };
   // The first movement of the hand starts the clock, too.

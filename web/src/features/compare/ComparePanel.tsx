@@ -30,7 +30,9 @@ function ending(comparison: ComparisonMessage, branch: Branch): Ending {
   if (branch.delivered_tick !== null) return ['delivered', Check, 'good'];
   if (!branch.done) return [comparison.running ? 'running' : 'stopped early', Ellipsis, 'plain'];
   if (branch.phase?.code === 'lifted_off') return ['lifted off', X, 'bad'];
-  return branch.phase?.code === 'stopped' ? ['stuck', X, 'bad'] : ['not in time', Clock, 'plain'];
+  const { phase } = branch;
+  if (phase?.code !== 'stopped') return ['not in time', Clock, 'plain'];
+  return [phase.by.endsWith('_steps') ? 'out of steps' : 'stopped', X, 'bad'];
 }
 
 function Results(props: Shown): JSX.Element {
@@ -203,7 +205,7 @@ export default function ComparePanel(
         {(comparison) => (
           <>
             <p class="hint" role="status">
-              {clock(comparison().sim_time_s)} of this trial, once under each controller
+              From {clock(comparison().sim_time_s)} of this trial, once under each controller
               <Show when={comparison().running}>: running …</Show>
               <Show when={comparison().failed}>{(reason) => <>: failed: {reason()}</>}</Show>
             </p>

@@ -6,7 +6,9 @@ import { CommandButton } from '../../lab/CommandButton';
 import type { Session, Trial } from '../../lab/slices';
 import { isActive, stageSentence, updateWords } from '../../lab/trainingStage';
 import type { TrainingSummary } from '../../net/protocol.gen';
+import { centimetres, fixed } from '../../ui/format';
 import { Icon } from '../../ui/Icon';
+import '../../ui/Fact.css';
 import { isTraining, type Run, type Task, tasksOf, type TrainingRun } from './lesson';
 import type { Lessons } from './store';
 
@@ -19,6 +21,26 @@ interface Props<R> {
   readonly foot: (left: JSX.Element) => JSX.Element;
 }
 
+/** What the instructions ask to look at. */
+function Readings(props: { lab: Trial }): JSX.Element {
+  return (
+    <Show when={props.lab.state()}>
+      {(state) => (
+        <dl class="facts">
+          <div>
+            <dt>Distance e</dt>
+            <dd class="number">{centimetres(state().tracked_error_m)}</dd>
+          </div>
+          <div>
+            <dt>Lift / weight</dt>
+            <dd class="number">{fixed(state().lift_ratio, 2)}</dd>
+          </div>
+        </dl>
+      )}
+    </Show>
+  );
+}
+
 /** The instructions, and why the buttons are disabled. */
 function Instructions(props: Props<Run | TrainingRun> & { to: string }): JSX.Element {
   const { lab } = props;
@@ -26,10 +48,13 @@ function Instructions(props: Props<Run | TrainingRun> & { to: string }): JSX.Ele
     <>
       <Show when={props.run.title}>{(title) => <h3>{title()}</h3>}</Show>
       <For each={props.run.words}>{(words) => <p>{words}</p>}</For>
+      <Show when={!isTraining(props.run)}>
+        <Readings lab={lab} />
+      </Show>
       <Show when={!lab.canOperate()}>
         <p class="hint">
           {lab.connection().kind === 'live'
-            ? `You are watching: take control at the top of the page to ${props.to}.`
+            ? `You are watching: take control below to ${props.to}.`
             : `No connection to the server: you cannot ${props.to} now.`}
         </p>
       </Show>

@@ -26,7 +26,7 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
       layers: ['capture', 'trail'],
       words: [
         'Set it up loads an empty table with the goal 30 cm to the right, and switches on the layer Capture: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
-        'Press Run and look at e on the right: the distance between tool and bead, as the tracker measures it. Its noise is 1 or 2 mm.',
+        'Press Run and look at e below: the distance between tool and bead, as the tracker measures it. Its noise is 1 or 2 mm.',
       ],
       tasks: [
         { text: 'The bead is carried for 10 cm', done: (track) => track.travelled_m > 0.1 },
@@ -71,7 +71,7 @@ export const LIFT_OFF: ExperimentLesson = {
       layers: ['capture'],
       words: [
         'Set it up places the tool above the bead, without a goal. Press Run and lower the magnet step by step.',
-        'Look at lift / weight on the right: at 1 the magnet lifts the whole weight of the bead.',
+        'Look at lift / weight below: at 1 the magnet lifts the whole weight of the bead.',
       ],
       tasks: [
         {

@@ -152,7 +152,7 @@ export const TWO_LAWS: ExperimentLesson = {
       speed: 2,
       layers: ['trail'],
       words: [
-        'Press Run. After about 3 s the bead is moved away. Look at the mode at the top and at the diagram on the right.',
+        'Press Run. After about 3 s the bead is moved away. Look at the sentence at the top and at e below.',
       ],
       tasks: [
         { text: 'The bead is lost', done: (track) => track.losses > 0 },

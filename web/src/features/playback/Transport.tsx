@@ -11,7 +11,11 @@ import { hintAtGoal, runOrPause } from './run';
 import { speedName, SPEEDS, ticksToControlStep } from './steps';
 import './Transport.css';
 
-export function Transport(props: { lab: Session & Trial & Notices }): JSX.Element {
+export function Transport(props: {
+  lab: Session & Trial & Notices;
+  /** On a phone, where the dock has Run only: all the others. */
+  inMenu?: boolean;
+}): JSX.Element {
   const { lab } = props;
   const running = (): boolean => lab.state()?.running ?? false;
   // A memo, so that other updates do not recreate the list under the pointer.
@@ -23,7 +27,7 @@ export function Transport(props: { lab: Session & Trial & Notices }): JSX.Elemen
   const controlStep = (): number =>
     ticksToControlStep(lab.state()?.tick ?? 0, lab.scene()?.tick_s ?? 0.008);
   return (
-    <div class="run-buttons">
+    <div class="run-buttons" classList={{ 'in-menu': props.inMenu ?? false }}>
       <CommandButton
         lab={lab}
         at="playback"
