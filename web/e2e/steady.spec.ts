@@ -74,7 +74,7 @@ test('does not move when messages arrive one by one', async ({ page, session }) 
     });
   });
   const lab = await Lab.attach(page, session.url);
-  await lab.page.locator('.status-words').getByText('Ready to run').waitFor();
+  await lab.page.locator('.status-words').getByText('Click the map to set a goal').waitFor();
   await delay(10 * SLOW_FRAME_MS);
   const { cls, worst } = await shiftOf(page);
   expect(cls, worst.join('\n')).toBeLessThan(MAX_SHIFT);
