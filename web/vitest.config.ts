@@ -8,7 +8,13 @@ export default defineConfig({
       // Modules.
       {
         extends: './vite.config.ts',
-        test: { name: 'modules', environment: 'node', include: ['src/**/*.test.ts'] },
+        test: {
+          name: 'modules',
+          environment: 'node',
+          include: ['src/**/*.test.ts'],
+          // Beside the Rust tests, the machine may stand still for seconds.
+          testTimeout: 30_000,
+        },
       },
       // Components, in a browser. The test plays the server.
       {
