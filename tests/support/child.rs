@@ -15,6 +15,8 @@ pub fn ferry(arguments: &[&str]) -> Command {
 /// A value of `/proc/PID/status`, such as `VmRSS`; `None` when the process has ended.
 pub fn memory_mb(child: &Child, name: &str) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).ok()?;
+    // Until the program runs, its process has the memory and the name of the tests.
+    let status = status.strip_prefix("Name:\tferry\n")?;
     let value = status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':')?.strip_suffix(" kB"))?;
     Some(value.trim().parse::<u64>().ok()? / 1000)
 }

@@ -16,18 +16,6 @@ const pointOf = (update: number): TrainingPoint => ({
   examined: null,
 });
 
-it('has each list as the newest message has it, also while the connection is lost', async () => {
-  const { lab, server } = fakeLab();
-  expect(lab.catalog.maps()).toBeUndefined();
-  await expect.poll(() => lab.catalog.maps()).toEqual(['posts']);
-  const before = lab.catalog.maps();
-  server.lists({ trainings: [trainingOf()] });
-  expect(lab.catalog.trainings()).toHaveLength(1);
-  expect(lab.catalog.maps()).toBe(before);
-  server.disconnect();
-  expect(lab.catalog.trainings()).toHaveLength(1);
-});
-
 it('watches one training, has each of its points once, and asks again after a lost connection', async () => {
   // The page asks for its address before it connects again.
   const { lab, server } = fakeLab({ [`GET ${window.location.pathname}`]: () => ({}) });
@@ -64,4 +52,17 @@ it('watches one training, has each of its points once, and asks again after a lo
   expect(updates()).toEqual([100]);
   stop();
   expect(asked()).toEqual(['training-1', 'training-1', 'training-2', null]);
+});
+
+// The last one: its page goes on trying to connect.
+it('has each list as the newest message has it, also while the connection is lost', async () => {
+  const { lab, server } = fakeLab();
+  expect(lab.catalog.maps()).toBeUndefined();
+  await expect.poll(() => lab.catalog.maps()).toEqual(['posts']);
+  const before = lab.catalog.maps();
+  server.lists({ trainings: [trainingOf()] });
+  expect(lab.catalog.trainings()).toHaveLength(1);
+  expect(lab.catalog.maps()).toBe(before);
+  server.disconnect();
+  expect(lab.catalog.trainings()).toHaveLength(1);
 });
