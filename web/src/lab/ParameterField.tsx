@@ -43,17 +43,15 @@ function NumberRow(props: { form: Form; field: NumberParameter; isChanged: boole
           // Released where it started: no change event.
           form.move(change[field.name] === form.values()[field.name] ? {} : change);
         },
-        onCancel: () => {
-          form.move({});
-        },
+        onCancel: () => form.move({}),
       }}
       // A value out of range becomes the nearest one.
-      onNumber={(value) => {
+      onNumber={(value) =>
         batch(() => {
           form.move({});
           form.edit(stored(value));
-        });
-      }}
+        })
+      }
     />
   );
 }
@@ -71,9 +69,7 @@ export function FieldRow(props: { form: Form; field: Field }): JSX.Element {
           isChanged={isChanged()}
           value={form.values()[field.name]}
           disabled={form.disabled()}
-          onChoose={(value) => {
-            form.edit({ [field.name]: value });
-          }}
+          onChoose={(value) => form.edit({ [field.name]: value })}
         />
       );
     default: {
@@ -88,9 +84,7 @@ export function FieldRow(props: { form: Form; field: Field }): JSX.Element {
           options={options()}
           value={value()}
           disabled={form.disabled() || form.idle(field.name) !== undefined}
-          onChoose={(chosen) => {
-            form.edit({ [field.name]: chosen });
-          }}
+          onChoose={(chosen) => form.edit({ [field.name]: chosen })}
         />
       );
     }

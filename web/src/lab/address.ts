@@ -48,9 +48,7 @@ export function createAddress(page: Window): Address {
     setPlace(placeOf(location.pathname, place().lesson));
   };
   page.addEventListener('popstate', onPop);
-  onCleanup(() => {
-    page.removeEventListener('popstate', onPop);
-  });
+  onCleanup(() => page.removeEventListener('popstate', onPop));
   const addressAt = ({ view, lesson }: Place): string => {
     if (view !== 'laboratory') return addressOf(`${session}/${view}`);
     return addressOf(lesson === undefined ? session : `${session}/learn/${lesson}`);
@@ -65,12 +63,8 @@ export function createAddress(page: Window): Address {
     view: () => place().view,
     lesson: () => place().lesson,
     of: (view) => addressAt({ ...place(), view }),
-    show: (view) => {
-      go({ view });
-    },
-    learn: (lesson) => {
-      go({ lesson });
-    },
+    show: (view) => go({ view }),
+    learn: (lesson) => go({ lesson }),
   };
 }
 

@@ -45,9 +45,7 @@ export function createCatalog(
         createEffect(() => {
           if (connection().kind === 'live') watch(training() ?? null);
         });
-        onCleanup(() => {
-          watch(null);
-        });
+        onCleanup(() => watch(null));
         return () => (watched().training === training() ? watched().points : NONE);
       },
     },

@@ -50,9 +50,7 @@ export function createEdits(lab: Basis) {
     }),
     /** The value of a moving slider, which is not sent. */
     moving,
-    move: (change: Change) => {
-      setMoving(change);
-    },
+    move: (change: Change) => setMoving(change),
     /** Sends a change. */
     edit: (change: Change) => {
       const now = values();

@@ -22,14 +22,10 @@ export function frameScheduler(work: () => void): () => void {
     if (cancel) return;
     if (document.hidden) {
       const id = setTimeout(run, HIDDEN_FLUSH_MS);
-      cancel = () => {
-        clearTimeout(id);
-      };
+      cancel = () => clearTimeout(id);
     } else {
       const id = requestAnimationFrame(run);
-      cancel = () => {
-        cancelAnimationFrame(id);
-      };
+      cancel = () => cancelAnimationFrame(id);
     }
   };
 }

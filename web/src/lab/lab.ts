@@ -89,12 +89,8 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
         keeper.opened();
         take({ type: 'connection', connection: { kind: 'live' } });
       },
-      lost: (attempt) => {
-        take({ type: 'connection', connection: { kind: 'lost', attempt } });
-      },
-      refused: (why) => {
-        take({ type: 'notice', place: 'session', text: why });
-      },
+      lost: (attempt) => take({ type: 'connection', connection: { kind: 'lost', attempt } }),
+      refused: (why) => take({ type: 'notice', place: 'session', text: why }),
       message: (message) => {
         switch (message.type) {
           case 'done':
@@ -133,9 +129,9 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
     () => connection().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
   );
   // A refusal needs no notice: the training is gone, and so it is from the list.
-  const feed = createCatalog(connection, (training) => {
-    socket.send({ type: 'watch_training', training, id: 0 });
-  });
+  const feed = createCatalog(connection, (training) =>
+    socket.send({ type: 'watch_training', training, id: 0 }),
+  );
   const send = (at: Place, message: ClientMessage): Promise<Answer> => {
     take({ type: 'sent', place: at });
     if (message.type === 'fork') comparison.show();
@@ -150,12 +146,8 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
     canOperate,
     send,
     // Sent blindly: a lost connection has released the bead already.
-    stream: (message) => {
-      socket.send(message);
-    },
-    notify: (place, text) => {
-      take({ type: 'notice', place, text });
-    },
+    stream: (message) => socket.send(message),
+    notify: (place, text) => take({ type: 'notice', place, text }),
   };
   const comparison = createComparison(part('comparison'), () => scene()?.tick_s ?? Infinity);
   const [sight, setSight] = createSignal<Sight>('all');
@@ -182,9 +174,7 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
       if (event) panels.showPanel('story');
     },
     notices: part('notices'),
-    dismiss: (place, id) => {
-      take({ type: 'dismiss', place, id });
-    },
+    dismiss: (place, id) => take({ type: 'dismiss', place, id }),
     camera,
     observation,
     overlay: part('overlay'),

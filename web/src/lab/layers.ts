@@ -22,8 +22,7 @@ export function createLayerChoice(known: readonly KnownLayer[]) {
     layers: createMemo<ReadonlySet<string>>(
       () => new Set(choices.filter(({ choice }) => choice() === 'shown').map(({ id }) => id)),
     ),
-    showLayer: (id: string, on: boolean) => {
-      choices.find((one) => one.id === id)?.choose(on ? 'shown' : 'hidden');
-    },
+    showLayer: (id: string, on: boolean) =>
+      choices.find((one) => one.id === id)?.choose(on ? 'shown' : 'hidden'),
   };
 }

@@ -40,9 +40,8 @@ export function createTakingPart(
           controller: name,
           program: name === 'program' ? (program() ?? null) : null,
         }),
-      onChoose: (names: readonly ControllerName[]) => {
-        leaveOut(offered().filter((name) => !names.includes(name)));
-      },
+      onChoose: (names: readonly ControllerName[]) =>
+        leaveOut(offered().filter((name) => !names.includes(name))),
     },
   };
 }

@@ -52,9 +52,7 @@ export function createPanels(): Panels {
       if (opened() === undefined || isPhone()) show(false);
       setOpened(undefined);
     },
-    toggleInspector: () => {
-      show(!isShown());
-    },
+    toggleInspector: () => show(!isShown()),
     fills,
     toggleFill: () => {
       const next = !fills();

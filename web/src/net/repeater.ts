@@ -12,9 +12,7 @@ export class Repeater<T> {
   say(value: T): void {
     this.stop();
     this.send(value);
-    this.timer = setInterval(() => {
-      this.send(value);
-    }, this.intervalMs);
+    this.timer = setInterval(() => this.send(value), this.intervalMs);
   }
 
   stop(): void {

@@ -41,9 +41,7 @@ export function Moments(props: { lab: Trial; interaction: Interaction }): JSX.El
   createEffect(() => {
     if (!shown()) return;
     const timer = setTimeout(() => setShown(undefined), SHOWN_MS);
-    onCleanup(() => {
-      clearTimeout(timer);
-    });
+    onCleanup(() => clearTimeout(timer));
   });
   const px = (): readonly [number, number] | undefined => {
     const [x, y, z] = shown()?.at_m ?? [];

@@ -59,9 +59,7 @@ function createStill(view: Accessor<View | undefined>): Accessor<View | undefine
       return;
     }
     const timer = setTimeout(() => setStill(now), STILL_MS);
-    onCleanup(() => {
-      clearTimeout(timer);
-    });
+    onCleanup(() => clearTimeout(timer));
   });
   return still;
 }

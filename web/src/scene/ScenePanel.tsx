@@ -131,9 +131,7 @@ export function ScenePanel(
       { defer: true },
     ),
   );
-  createEffect(() => {
-    drawing()?.recolor(colours());
-  });
+  createEffect(() => drawing()?.recolor(colours()));
   createEffect(() => {
     const scene = lab.scene();
     if (scene) drawing()?.show(scene);
@@ -164,9 +162,9 @@ export function ScenePanel(
     view.lay(onto);
   });
 
-  createEffect(() => {
-    drawing()?.hang(shownParts(layers, 'underTool').map(({ drawing }) => drawing));
-  });
+  createEffect(() =>
+    drawing()?.hang(shownParts(layers, 'underTool').map(({ drawing }) => drawing)),
+  );
 
   const pull = createMemo(() => {
     const [scene, state] = [lab.scene(), lab.state()];
@@ -246,9 +244,7 @@ export function ScenePanel(
                 <button
                   type="button"
                   aria-pressed={viewpoint() === name}
-                  onClick={() => {
-                    view().orbit.take(name);
-                  }}
+                  onClick={() => view().orbit.take(name)}
                 >
                   {name}
                 </button>

@@ -107,9 +107,7 @@ export class SceneView {
     this.arm.group.visible = false;
     this.world.add(this.light.group, this.arm.group, this.underTool);
     this.orbit = new OrbitCamera(
-      () => {
-        this.updateView();
-      },
+      () => this.updateView(),
       options.rest,
       options.wantsLessMotion,
       options.plan,

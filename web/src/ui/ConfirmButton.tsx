@@ -47,9 +47,7 @@ export function ConfirmButton(props: ConfirmProps): JSX.Element {
           aria-label={`${props.verb} ${props.of}`}
           disabled={props.disabled}
           title={props.title}
-          onClick={() => {
-            setAsking(true);
-          }}
+          onClick={() => setAsking(true)}
         >
           {props.verb}
         </SmallButton>

@@ -36,16 +36,10 @@ export function Curve(props: {
   let root!: HTMLDivElement;
   onMount(() => {
     const plot = createCurve(root, props.context);
-    onSize(root, (size) => {
-      plot.setSize(size);
-    });
-    onCleanup(() => {
-      plot.destroy();
-    });
+    onSize(root, (size) => plot.setSize(size));
+    onCleanup(() => plot.destroy());
     createEffect(() => {
-      plot.batch(() => {
-        plot.setData(props.data);
-      });
+      plot.batch(() => plot.setData(props.data));
       // The scale may have changed. Under the pointer, uPlot keeps the cursor.
       const at = untrack(() => props.at);
       if (at !== undefined) showCursor(plot, at);
@@ -62,9 +56,7 @@ export function Curve(props: {
     createEffect(
       on(
         () => props.at,
-        (at) => {
-          showCursor(plot, at);
-        },
+        (at) => showCursor(plot, at),
         { defer: true },
       ),
     );

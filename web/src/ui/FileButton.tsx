@@ -21,9 +21,7 @@ export function FileButton(props: {
         class={props.class}
         disabled={props.disabled}
         title={props.title}
-        onClick={() => {
-          input.click();
-        }}
+        onClick={() => input.click()}
       >
         {props.children}
       </button>

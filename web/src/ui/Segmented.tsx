@@ -32,9 +32,7 @@ export function Segmented<T extends string>(props: {
               checked={props.value === value}
               disabled={props.disabled}
               aria-busy={props.value === value && props.isBusy}
-              onChange={() => {
-                props.onChoose(value);
-              }}
+              onChange={() => props.onChoose(value)}
             />
             {label}
           </label>

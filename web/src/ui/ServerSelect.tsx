@@ -34,9 +34,7 @@ export function ServerSelect(props: {
         disabled={props.disabled}
         aria-busy={choice.isPending()}
         title={props.options.find(([value]) => value === choice.value())?.[1]}
-        onChange={(event) => {
-          choice.choose(event.currentTarget.value);
-        }}
+        onChange={(event) => choice.choose(event.currentTarget.value)}
       >
         <For each={props.options}>{([value, label]) => <option value={value}>{label}</option>}</For>
       </select>

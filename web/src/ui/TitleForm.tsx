@@ -62,9 +62,7 @@ export function createRenaming(save: (title: string) => Promise<boolean>) {
       ref: (button: HTMLButtonElement) => {
         opener = button;
       },
-      onClick: () => {
-        setOn(true);
-      },
+      onClick: () => setOn(true),
     },
   };
 }

@@ -15,9 +15,7 @@ export function Toggle(props: {
       type="button"
       aria-pressed={props.isOn}
       title={props.title}
-      onClick={() => {
-        props.onChange(!props.isOn);
-      }}
+      onClick={() => props.onChange(!props.isOn)}
     >
       <Show when={props.isOn}>
         <Icon of={Check} />

@@ -225,11 +225,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
         fill: () => translucent(palette()[context.lines[upper]?.color ?? 'ink']),
       })),
       hooks: {
-        drawAxes: [
-          (u) => {
-            drawShades(u, context);
-          },
-        ],
+        drawAxes: [(u) => drawShades(u, context)],
         draw: [
           (u) => {
             drawBars(u, context);

@@ -7,9 +7,7 @@ export function download(name: string, content: Blob): void {
   link.download = name;
   link.click();
   // The browser reads the data after the click.
-  setTimeout(() => {
-    URL.revokeObjectURL(address);
-  }, 10_000);
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
 export function pngOfCanvas(canvas: HTMLCanvasElement): Promise<Blob> {

@@ -9,8 +9,6 @@ export function createFold(name: string) {
   const [state, setState] = createChoice(`panel.${name}`, ['closed', 'open']);
   return {
     isOpen: (): boolean => state() === 'open',
-    set: (open: boolean) => {
-      setState(open ? 'open' : 'closed');
-    },
+    set: (open: boolean) => setState(open ? 'open' : 'closed'),
   };
 }

@@ -9,8 +9,6 @@ export function prefersLessMotion(): Accessor<boolean> {
     setLess(query.matches);
   };
   query.addEventListener('change', onChange);
-  onCleanup(() => {
-    query.removeEventListener('change', onChange);
-  });
+  onCleanup(() => query.removeEventListener('change', onChange));
   return isLess;
 }

@@ -74,7 +74,5 @@ export function attachShortcuts(shortcuts: readonly Shortcut[], areOn: () => boo
     shortcut.run();
   };
   document.addEventListener('keydown', onKey);
-  return () => {
-    document.removeEventListener('keydown', onKey);
-  };
+  return () => document.removeEventListener('keydown', onKey);
 }

@@ -10,11 +10,9 @@ export interface Size {
 
 /** Calls `take` with the size of the element now and when it changes. */
 export function onSize(element: Element, take: (size: Size) => void): void {
-  const observer = new ResizeObserver(() => {
-    take({ width: element.clientWidth, height: element.clientHeight });
-  });
+  const observer = new ResizeObserver(() =>
+    take({ width: element.clientWidth, height: element.clientHeight }),
+  );
   observer.observe(element);
-  onCleanup(() => {
-    observer.disconnect();
-  });
+  onCleanup(() => observer.disconnect());
 }

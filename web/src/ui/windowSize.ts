@@ -5,9 +5,7 @@ import { createSignal, type Accessor } from 'solid-js';
 function matches(query: string): Accessor<boolean> {
   const list = matchMedia(query);
   const [value, setValue] = createSignal(list.matches);
-  list.addEventListener('change', () => {
-    setValue(list.matches);
-  });
+  list.addEventListener('change', () => setValue(list.matches));
   return value;
 }
 

@@ -67,9 +67,9 @@ function CameraDetails(props: {
     const picture = lab.observation();
     const size = OBSERVATION_PX * OBSERVATION_PX;
     if (picture?.bytes.length !== 2 * size) return;
-    channels.forEach((canvas, channel) => {
-      drawGray(canvas, picture.bytes.subarray(channel * size, (channel + 1) * size));
-    });
+    channels.forEach((canvas, channel) =>
+      drawGray(canvas, picture.bytes.subarray(channel * size, (channel + 1) * size)),
+    );
   });
   return (
     <div id="camera-details" class="camera-details">
@@ -166,9 +166,7 @@ export function CameraSight(props: {
           aria-expanded={fold.isOpen()}
           aria-controls="camera-details"
           title={fold.isOpen() ? 'Make the image smaller' : 'Enlarge the image'}
-          onClick={() => {
-            fold.set(!fold.isOpen());
-          }}
+          onClick={() => fold.set(!fold.isOpen())}
         >
           <Icon of={fold.isOpen() ? Minimize2 : Maximize2} />
         </button>

@@ -43,8 +43,6 @@ export const sceneFrustum: CreateSceneObject = (paints, { parameters, camera_see
   const object = new Group().add(air, foot.object);
   return {
     object,
-    place: ({ tool_m: [x, y] }) => {
-      object.position.set(x, y, 0);
-    },
+    place: ({ tool_m: [x, y] }) => object.position.set(x, y, 0),
   };
 };

@@ -23,8 +23,6 @@ export const sceneCapture: CreateSceneObject = (paints, scene) => {
   );
   return {
     object,
-    place: ({ tool_m: [x, y] }) => {
-      object.position.set(x, y, 0);
-    },
+    place: ({ tool_m: [x, y] }) => object.position.set(x, y, 0),
   };
 };

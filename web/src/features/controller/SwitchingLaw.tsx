@@ -117,9 +117,7 @@ function MagnetAndBead(props: Props & { lab: Panels }): JSX.Element {
           type="button"
           class="small ghost"
           title="What the magnet can do at each distance and height"
-          onClick={() => {
-            props.lab.showPanel('tune');
-          }}
+          onClick={() => props.lab.showPanel('tune')}
         >
           Curves
           <Icon of={ChevronRight} />

@@ -82,9 +82,7 @@ export default function DisturbPanel(
   const [typed, setTyped] = createSignal<Partial<Record<NumberName, string>>>({});
   const [target, setTarget] = createSignal<Place>(here);
   const [near, setNear] = createSignal<Place>(here);
-  onCleanup(() => {
-    props.picker.cancel();
-  });
+  onCleanup(() => props.picker.cancel());
 
   const text = (name: NumberName): string => typed()[name] ?? NUMBERS[name][5];
   const number = (name: NumberName): number => numberOf(text(name));
@@ -154,9 +152,7 @@ export default function DisturbPanel(
             isWhole={name === 'step'}
             value={text(name)}
             disabled={disabled()}
-            onInput={(value) => {
-              setTyped({ ...typed(), [name]: value });
-            }}
+            onInput={(value) => setTyped({ ...typed(), [name]: value })}
           />
         );
       }}

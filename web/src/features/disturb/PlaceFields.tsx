@@ -50,9 +50,7 @@ export function PlaceFields(props: {
             max={10}
             value={props.value[`${axis}_m`]}
             disabled={props.disabled}
-            onInput={(text) => {
-              props.onValue({ ...props.value, [`${axis}_m`]: text });
-            }}
+            onInput={(text) => props.onValue({ ...props.value, [`${axis}_m`]: text })}
           />
         )}
       </For>

@@ -37,9 +37,8 @@ export function SidePanel(props: {
     return found && verdictOf(found);
   });
   const hasRoom = (): boolean => (props.check.found()?.regions ?? 0) > 0;
-  const show = async (drawing: Promise<Drawing>): Promise<void> => {
+  const show = async (drawing: Promise<Drawing>): Promise<void> =>
     props.editor.act({ type: 'show', drawing: await drawing });
-  };
   const take = (drawing: () => Promise<Drawing>) => attempt(show(drawing()));
   const start = (map: string) =>
     take(async () => (map === '' ? BLANK : drawingOf(await checkOfMap(map))));
@@ -119,9 +118,7 @@ export function SidePanel(props: {
           class="primary"
           disabled={!lab.canOperate() || isBusy() || !hasRoom()}
           title="Adds the drawing to the server's maps and starts a trial on it"
-          onClick={() => {
-            void props.onSave(fileOf(freeName(plainName(), lab.catalog.maps() ?? [])));
-          }}
+          onClick={() => void props.onSave(fileOf(freeName(plainName(), lab.catalog.maps() ?? [])))}
         >
           Save and use
         </button>

@@ -29,9 +29,8 @@ export function createPointer(editor: Editor) {
     event.pointerType === 'mouse' ? SLOP_PX.mouse : SLOP_PX.touch;
   const slopMm = (event: Moved): number =>
     slopPx(event) / (event.currentTarget.getScreenCTM()?.a ?? 1);
-  const drag = (at: Px, event: Moved): void => {
+  const drag = (at: Px, event: Moved): void =>
     editor.act({ type: 'drag', at: place(event, at), slop_mm: slopMm(event) });
-  };
   // The view is left in the middle of a drag.
   onCleanup(() => {
     if (press?.isDrag) editor.act({ type: 'cancel' });

@@ -22,9 +22,7 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
       type="button"
       class="evaluation-entry"
       aria-current={props.current ? 'true' : undefined}
-      onClick={() => {
-        setChosen(props.summary.id);
-      }}
+      onClick={() => setChosen(props.summary.id)}
     >
       <b>{numberOf(props.summary.id)}</b>
       <Stage

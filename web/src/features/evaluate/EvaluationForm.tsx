@@ -48,9 +48,7 @@ export function EvaluationForm(props: {
   return (
     <Form
       class="evaluation-form"
-      send={async () => {
-        props.onStarted(await startEvaluation(queryOf(draft())));
-      }}
+      send={async () => props.onStarted(await startEvaluation(queryOf(draft())))}
       button="Run"
       isFoot
       beside={
@@ -70,9 +68,7 @@ export function EvaluationForm(props: {
         value={[...draft().controllers, draft().program].filter((name) => name !== '')}
         text={labelOf}
         mark={(name) => <Mark of={name} />}
-        onChoose={(chosen) => {
-          change(chooseControllers(chosen, draft().program));
-        }}
+        onChoose={(chosen) => change(chooseControllers(chosen, draft().program))}
       />
       <Show when={draft().controllers.includes('rl')}>
         <ChoiceField {...edits('rl_policy')} label="Policy of RL" options={policies()} />

@@ -56,9 +56,7 @@ function Row(props: {
                   {...(part === 'count' ? { min: 1, isWhole: true } : ends(value().name))}
                   label={label}
                   value={value()[part]}
-                  onInput={(text) => {
-                    props.onChange({ ...value(), [part]: text });
-                  }}
+                  onInput={(text) => props.onChange({ ...value(), [part]: text })}
                 />
               )}
             </For>
@@ -93,9 +91,7 @@ export function VaryFields(props: {
               number={index + 1}
               value={props.value[index]}
               taken={props.value[1 - index]?.name}
-              onChange={(value) => {
-                put(index, value);
-              }}
+              onChange={(value) => put(index, value)}
             />
           )}
         </For>

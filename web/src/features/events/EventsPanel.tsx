@@ -142,9 +142,7 @@ export function EventsPanel(props: PanelProps): JSX.Element {
                 event={onTimeline(line().event)}
                 isOpen={isOpen(line().event)}
                 isReached={reached() === line().event}
-                onPress={() => {
-                  press(line().event);
-                }}
+                onPress={() => press(line().event)}
               />
             )}
           </ForKeyed>

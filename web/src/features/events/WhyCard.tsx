@@ -97,9 +97,7 @@ export function WhyCard(props: {
       },
     ),
   );
-  const close = (): void => {
-    lab.inspect(undefined);
-  };
+  const close = (): void => lab.inspect(undefined);
   return (
     <section
       ref={card}

@@ -15,9 +15,7 @@ export function fits(text: string, bytes: number): boolean {
 
 /** Sends the file to the server, which reads it. */
 export async function openCase(lab: Session & Notices & Panels, file: File): Promise<void> {
-  const say = (text: string): void => {
-    lab.notify('playback', text);
-  };
+  const say = (text: string): void => lab.notify('playback', text);
   const bytes = lab.hello()?.message_bytes;
   if (!lab.canOperate() || bytes === undefined) {
     say('Take control to open a test case.');

@@ -20,9 +20,7 @@ export function createCapture(lab: Trial & Notices, view: Accessor<ViewPicture |
   const [saved, setSaved] = createSignal<string>();
   let recording: Recording | undefined;
 
-  const say = (reason: unknown): void => {
-    lab.notify('workspace', messageOf(reason));
-  };
+  const say = (reason: unknown): void => lab.notify('workspace', messageOf(reason));
   const save = (name: string, content: Blob): void => {
     download(name, content);
     setSaved(name);
@@ -91,8 +89,6 @@ export function createCapture(lab: Trial & Notices, view: Accessor<ViewPicture |
         say(reason);
       }
     },
-    stopVideo: (): void => {
-      recording?.stop();
-    },
+    stopVideo: (): void => recording?.stop(),
   };
 }

@@ -71,9 +71,7 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
                 const tick = attemptStart(lab);
                 return tick === undefined ? undefined : { type: 'fork', tick };
               }}
-              onDone={() => {
-                lab.showPanel('compare');
-              }}
+              onDone={() => lab.showPanel('compare')}
             >
               Compare from the start
             </CommandButton>

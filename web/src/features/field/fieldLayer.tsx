@@ -32,9 +32,7 @@ export const FIELD_LAYER: MapLayer = {
         return (
           now && {
             halfSide_m: HALF_SIDE_M,
-            draw: (ctx, view, palette) => {
-              drawField(ctx, view, palette, now);
-            },
+            draw: (ctx, view, palette) => drawField(ctx, view, palette, now),
           }
         );
       }),

@@ -156,12 +156,8 @@ function createLessons(lab: LessonsLab) {
       const measured = all(now.runs, (one) => tracks().get(one));
       return measured && { outcome: now.outcome(...measured), facts: now.facts(...measured) };
     },
-    open: ({ id }: Lesson): void => {
-      lab.address.learn(id);
-    },
-    close: (): void => {
-      lab.address.learn(undefined);
-    },
+    open: ({ id }: Lesson): void => lab.address.learn(id),
+    close: (): void => lab.address.learn(undefined),
     /** The lesson is done when its last step is shown. */
     go: (to: number): void => {
       go(to);
@@ -185,9 +181,7 @@ function createLessons(lab: LessonsLab) {
       const answer = await loaded;
       if (answer?.kind === 'done' && run() === next) setOwn(scenario());
     },
-    startOver: (): void => {
-      keep(NO_PROGRESS);
-    },
+    startOver: (): void => keep(NO_PROGRESS),
   };
 }
 

@@ -49,9 +49,7 @@ export function Lane(props: {
     shades: () =>
       (props.sample?.approaches ?? []).map(([from, to]) => ({ from, to, color: 'ink-3' })),
     rules: createMemo(() => rulesOf(props.part, props.sample, props.threshold_m)),
-    onCursor: (index) => {
-      axis.point(index === undefined ? undefined : times()[index]);
-    },
+    onCursor: (index) => axis.point(index === undefined ? undefined : times()[index]),
   };
   return (
     <div class="lane" data-part={props.part.letter}>

@@ -32,14 +32,8 @@ export default function PlotLanes(
     (lane) => samples[lane]?.[1](sample),
     (work) => requestAnimationFrame(work),
   );
-  createEffect(
-    on([lab.state, lab.marks, axis.span, parts], () => {
-      rotation.offer();
-    }),
-  );
-  onCleanup(() => {
-    rotation.stop();
-  });
+  createEffect(on([lab.state, lab.marks, axis.span, parts], () => rotation.offer()));
+  onCleanup(() => rotation.stop());
   return (
     <>
       <For each={parts()}>

@@ -80,9 +80,7 @@ export function PlotMenu(props: {
                   type="checkbox"
                   checked={isShown(letter)}
                   disabled={isOnlyOne(letter)}
-                  onChange={(event) => {
-                    choosePart(letter, event.currentTarget.checked);
-                  }}
+                  onChange={(event) => choosePart(letter, event.currentTarget.checked)}
                 />
                 {title}
               </label>
@@ -92,9 +90,7 @@ export function PlotMenu(props: {
             Time window
             <select
               aria-label="Time window of the plots"
-              onChange={(event) => {
-                axis.choose(event.currentTarget.value as WindowChoice);
-              }}
+              onChange={(event) => axis.choose(event.currentTarget.value as WindowChoice)}
             >
               <For each={WINDOWS}>
                 {([id, label]) => (

@@ -123,9 +123,7 @@ export function RecordingPanel(props: {
             ref={props.openerRef}
             classList={{ primary: !props.isOpen }}
             aria-label={props.isOpen ? undefined : `Open in Rerun: ${label(props.file)}`}
-            onClick={() => {
-              props.onOpen();
-            }}
+            onClick={() => props.onOpen()}
           >
             <Icon of={props.isOpen ? List : MonitorPlay} />
             {props.isOpen ? 'Back to the list' : 'Open in Rerun'}

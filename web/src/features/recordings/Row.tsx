@@ -27,9 +27,7 @@ export function Row(props: {
     <tr
       data-recording={props.file.id}
       aria-current={props.isChosen ? 'true' : undefined}
-      onClick={() => {
-        props.onChoose();
-      }}
+      onClick={() => props.onChoose()}
     >
       <th scope="row">
         <button type="button" class="recording">

@@ -16,9 +16,7 @@ export function Seed(props: { lab: Session & Notices; seed: number }): JSX.Eleme
   const { lab } = props;
   // As typed. Leaving the field does not reset the trial.
   const [typed, setTyped] = createSignal<string>();
-  const show = (): void => {
-    setTyped(undefined);
-  };
+  const show = (): void => setTyped(undefined);
   const seed = createPending(
     () => props.seed,
     (value) => lab.send('playback', { type: 'reset', seed: value }),

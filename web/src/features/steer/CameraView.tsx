@@ -47,9 +47,7 @@ export function CameraView(
       ? viewThrough(overlay.picture_from_table, size())
       : undefined;
   });
-  createEffect(() => {
-    interaction.setView(view());
-  });
+  createEffect(() => interaction.setView(view()));
   // A viewer sees the hand in every state, and it mostly stays where it was.
   const hand = createMemo(
     () => lab.steering.target() ?? lab.state()?.steer_m ?? undefined,

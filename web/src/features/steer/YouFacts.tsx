@@ -51,9 +51,7 @@ export function YouFacts(props: { lab: ByHand & Panels }): JSX.Element {
           type="checkbox"
           checked={lab.steering.approach()}
           disabled={!lab.steering.isActive()}
-          onChange={(event) => {
-            lab.steering.setApproach(event.currentTarget.checked);
-          }}
+          onChange={(event) => lab.steering.setApproach(event.currentTarget.checked)}
         />
         Fetch a lost bead by hand, too
       </label>
@@ -67,9 +65,7 @@ export function YouFacts(props: { lab: ByHand & Panels }): JSX.Element {
       <button
         type="button"
         title="Race the controllers on a trial of the day"
-        onClick={() => {
-          lab.showPanel('play');
-        }}
+        onClick={() => lab.showPanel('play')}
       >
         Challenges…
       </button>

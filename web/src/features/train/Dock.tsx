@@ -52,9 +52,7 @@ function TimeRow(props: { watch: Watch }): JSX.Element {
           disabled={watch.count() < 2}
           aria-label={`Value map of ${name()}`}
           aria-valuetext={watch.words()}
-          onInput={({ currentTarget }) => {
-            watch.show(currentTarget.valueAsNumber);
-          }}
+          onInput={({ currentTarget }) => watch.show(currentTarget.valueAsNumber)}
         />
       </span>
       <button
@@ -62,9 +60,7 @@ function TimeRow(props: { watch: Watch }): JSX.Element {
         class="small"
         aria-label={`Follow the newest value map of ${name()}`}
         aria-pressed={watch.isNewest()}
-        onClick={() => {
-          watch.show(undefined);
-        }}
+        onClick={() => watch.show(undefined)}
       >
         Newest
       </button>
@@ -117,9 +113,7 @@ export function Dock(props: { watches: readonly Watch[] }): JSX.Element {
               <Toggle
                 title={title}
                 isOn={layers()[id]}
-                onChange={(isOn) => {
-                  setLayers({ ...layers(), [id]: isOn });
-                }}
+                onChange={(isOn) => setLayers({ ...layers(), [id]: isOn })}
               >
                 {label}
               </Toggle>
@@ -130,9 +124,7 @@ export function Dock(props: { watches: readonly Watch[] }): JSX.Element {
           type="button"
           class="train-more"
           aria-pressed={hasCurves()}
-          onClick={() => {
-            setCurves(!hasCurves());
-          }}
+          onClick={() => setCurves(!hasCurves())}
         >
           <Icon of={Activity} />
           Curves

@@ -53,9 +53,7 @@ export function PoliciesPanel(props: {
               policy={policy()}
               isUsed={used() === policy().name}
               attempt={attempt}
-              onUse={() => {
-                props.onUse(policy(), policy().maps);
-              }}
+              onUse={() => props.onUse(policy(), policy().maps)}
             />
           )}
         </ForKeyed>

@@ -37,11 +37,7 @@ function originWords({ query, elapsed_s }: PolicyOrigin): string {
 function Origin(props: RowProps & { origin: PolicyOrigin }): JSX.Element {
   const [isOpen, setOpen] = createSignal(false);
   return (
-    <details
-      onToggle={({ currentTarget }) => {
-        setOpen(currentTarget.open);
-      }}
-    >
+    <details onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
       <summary>How {props.policy.name} was trained</summary>
       <p class="hint">{originWords(props.origin)}</p>
       <Show when={isOpen()}>

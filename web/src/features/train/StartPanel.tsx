@@ -96,9 +96,7 @@ export function StartPanel(props: {
         label="Recipe"
         help={RECIPES.map(({ label, help }) => `${label}: ${help}`).join('\n')}
         options={RECIPES.map(({ name: recipe, label }) => [recipe, label] as const)}
-        onChoose={(recipe) => {
-          change({ recipe, settings: {} });
-        }}
+        onChoose={(recipe) => change({ recipe, settings: {} })}
       />
       <details ref={folded} class="train-settings">
         <summary>
@@ -111,9 +109,8 @@ export function StartPanel(props: {
           <For each={SETTINGS}>
             {(setting) => {
               const text = (): string => settingText(draft(), setting.name);
-              const put = (value: string): void => {
+              const put = (value: string): void =>
                 change({ settings: changedSettings(draft(), setting.name, value) });
-              };
               switch (setting.kind) {
                 case 'number':
                   return <NumberField {...setting} value={text()} onInput={put} />;
@@ -124,9 +121,7 @@ export function StartPanel(props: {
                     <FlagField
                       {...setting}
                       value={text() === 'true'}
-                      onChoose={(value) => {
-                        put(String(value));
-                      }}
+                      onChoose={(value) => put(String(value))}
                     />
                   );
               }
@@ -140,11 +135,7 @@ export function StartPanel(props: {
             isWhole
           />
         </div>
-        <SmallButton
-          onClick={() => {
-            change({ settings: {}, seed: BLANK.seed });
-          }}
-        >
+        <SmallButton onClick={() => change({ settings: {}, seed: BLANK.seed })}>
           Reset the settings
         </SmallButton>
       </details>

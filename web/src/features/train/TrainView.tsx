@@ -114,12 +114,8 @@ export default function TrainView(props: {
               before={before(watch.summary())}
               isDeleted={watch.summary().policy !== null && !trained(watch.summary())}
               isFirst={index() === 0}
-              onUse={() => {
-                use(trained(watch.summary()), [watch.summary().query.map]);
-              }}
-              onEvaluate={() => {
-                evaluate(watch.summary());
-              }}
+              onUse={() => use(trained(watch.summary()), [watch.summary().query.map])}
+              onEvaluate={() => evaluate(watch.summary())}
               onRemoved={() => entries?.querySelector('button')?.focus()}
             />
             <h3>How good is it by now?</h3>

@@ -23,9 +23,7 @@ export function TrainingEntry(props: {
         type="button"
         class="training-choose"
         aria-current={props.isShown ? 'true' : undefined}
-        onClick={() => {
-          props.onChoose();
-        }}
+        onClick={() => props.onChoose()}
       >
         <strong>{name()}</strong> <span class="about">{props.summary.query.map}</span>{' '}
         <StageBadge summary={props.summary} />

@@ -89,9 +89,7 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
         request = requestAnimationFrame(next);
       };
       next();
-      onCleanup(() => {
-        cancelAnimationFrame(request);
-      });
+      onCleanup(() => cancelAnimationFrame(request));
     });
   });
 

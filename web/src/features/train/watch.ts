@@ -45,9 +45,7 @@ export function createWatch(summary: Accessor<TrainingSummary>) {
       if (index() < last()) setAt(index() + 1);
       else show(undefined);
     }, PLAY_MS);
-    onCleanup(() => {
-      clearInterval(timer);
-    });
+    onCleanup(() => clearInterval(timer));
   });
   /** Undefined: follows the newest. */
   const show = (next: number | undefined): void => {

@@ -12,9 +12,9 @@ const isKey = ({ key }: KeyboardEvent): boolean => key === ' ' || key === 'Enter
 
 function HoldButton(props: { lab: Session; twin: TwinStanding }): JSX.Element {
   const { lab } = props;
-  const hold = createHold((press) => {
-    lab.stream({ type: 'drive_robot', ...(press === undefined ? {} : { press }) });
-  });
+  const hold = createHold((press) =>
+    lab.stream({ type: 'drive_robot', ...(press === undefined ? {} : { press }) }),
+  );
   const isEnabled = (): boolean => lab.canOperate() && props.twin.trouble === null;
   createEffect(() => {
     if (!isEnabled()) hold.release();

@@ -14,9 +14,7 @@ export function createHold(say: (press: number | undefined) => void) {
       if (timer !== undefined) return;
       const press = newNumber();
       say(press);
-      timer = setInterval(() => {
-        say(press);
-      }, REPEAT_MS);
+      timer = setInterval(() => say(press), REPEAT_MS);
     },
     release: (): void => {
       if (timer === undefined) return;

@@ -38,9 +38,7 @@ function watchForPanic(handle: WebHandle): void {
     show('failed', `Rerun's viewer has crashed: ${handle.panic_message() ?? 'no reason given'}`);
     return;
   }
-  setTimeout(() => {
-    watchForPanic(handle);
-  }, PANIC_CHECK_MS);
+  setTimeout(() => watchForPanic(handle), PANIC_CHECK_MS);
 }
 
 async function open(recording: string): Promise<void> {
@@ -57,9 +55,7 @@ async function open(recording: string): Promise<void> {
     hide_welcome_screen: true,
     enable_history: false,
     persist: false,
-    on_viewer_event: (event) => {
-      follow(JSON.parse(event) as ViewerEvent);
-    },
+    on_viewer_event: (event) => follow(JSON.parse(event) as ViewerEvent),
   });
   await handle.start(canvas);
   watchForPanic(handle);
@@ -82,9 +78,9 @@ function start(): void {
     document.documentElement.dataset.theme = changed;
     scheme.set(changed);
   });
-  open(query.get('recording') ?? '').catch((reason: unknown) => {
-    show('failed', `The recording could not be opened: ${reasonText(reason)}`);
-  });
+  open(query.get('recording') ?? '').catch((reason: unknown) =>
+    show('failed', `The recording could not be opened: ${reasonText(reason)}`),
+  );
 }
 
 start();

@@ -83,12 +83,7 @@ export function ChoiceField<T extends string>(
   return (
     <Row {...props}>
       {(input) => (
-        <select
-          {...input}
-          onChange={(event) => {
-            props.onChoose(event.currentTarget.value as T);
-          }}
-        >
+        <select {...input} onChange={(event) => props.onChoose(event.currentTarget.value as T)}>
           {list(props.options)}
           <For each={props.groups}>
             {({ title, options }) => <optgroup label={title}>{list(options)}</optgroup>}
@@ -109,9 +104,7 @@ export function FlagField(
           {...input}
           type="checkbox"
           checked={props.value}
-          onChange={(event) => {
-            props.onChoose(event.currentTarget.checked);
-          }}
+          onChange={(event) => props.onChoose(event.currentTarget.checked)}
         />
       )}
     </Row>
@@ -139,9 +132,7 @@ export function TextField(
           autocomplete="off"
           autocapitalize="off"
           spellcheck={false}
-          onInput={(event) => {
-            props.onInput(event.currentTarget.value);
-          }}
+          onInput={(event) => props.onInput(event.currentTarget.value)}
         />
       )}
     </Row>
@@ -180,11 +171,11 @@ export function CheckField<T extends string | number>(
                 aria-invalid={input['aria-invalid']}
                 checked={props.value.includes(item)}
                 disabled={input.disabled}
-                onChange={({ currentTarget: { checked } }) => {
+                onChange={({ currentTarget: { checked } }) =>
                   props.onChoose(
                     props.all.filter((one) => (one === item ? checked : props.value.includes(one))),
-                  );
-                }}
+                  )
+                }
               />
               {props.mark?.(item)}
               {text(item)}
