@@ -6,11 +6,11 @@ import { MapPicture } from '../../lab/MapPicture';
 import { addressOf } from '../../net/base';
 import type { RecordingFile } from '../../net/protocol.gen';
 import { ConfirmButton } from '../../ui/ConfirmButton';
+import { Fact } from '../../ui/Fact';
 import { duration } from '../../ui/format';
 import { Icon } from '../../ui/Icon';
 import { SmallButton } from '../../ui/SmallButton';
 import { createRenaming, TitleForm } from '../../ui/TitleForm';
-import '../../ui/Fact.css';
 import { nameOf, ownName } from './names';
 import { type Ending, filePath, label, size, startedAt } from './recordings';
 
@@ -36,39 +36,21 @@ function Facts(props: { file: RecordingFile }): JSX.Element {
       <Show when={props.file.content}>
         {(content) => (
           <>
-            <div>
-              <dt>Delivered</dt>
-              <dd>
-                {content().delivered} of {content().delivered + content().not_delivered}
-              </dd>
-            </div>
-            <div>
-              <dt>Duration</dt>
-              <dd>{duration(content().duration_s)}</dd>
-            </div>
+            <Fact
+              name="Delivered"
+              value={`${content().delivered} of ${content().delivered + content().not_delivered}`}
+            />
+            <Fact name="Duration" value={duration(content().duration_s)} />
           </>
         )}
       </Show>
-      <div>
-        <dt>Size</dt>
-        <dd>{size(props.file.bytes)}</dd>
-      </div>
+      <Fact name="Size" value={size(props.file.bytes)} />
       <Show when={props.file.session}>
-        {(session) => (
-          <div>
-            <dt>Session</dt>
-            <dd>{session()}</dd>
-          </div>
-        )}
+        {(session) => <Fact name="Session" value={session()} />}
       </Show>
       <Show when={props.file.started}>
         {(started) => (
-          <div>
-            <dt>Began</dt>
-            <dd>
-              {startedAt(started()).day}, {startedAt(started()).time}
-            </dd>
-          </div>
+          <Fact name="Began" value={`${startedAt(started()).day}, ${startedAt(started()).time}`} />
         )}
       </Show>
     </dl>

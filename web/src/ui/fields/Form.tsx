@@ -12,7 +12,6 @@ import {
 import type { IconNode } from 'lucide';
 import { Icon } from '../Icon';
 import './fields.css';
-import './sideBySide.css';
 
 /** A field, as the form knows it. */
 export interface Entry {
@@ -49,8 +48,6 @@ function nameIn(reason: unknown): string | undefined {
 
 export function Form(props: {
   class: string;
-  /** In one line, with the labels beside the fields; otherwise one field below the other. */
-  isInline?: boolean;
   /** A rejection is said at the field that its `field` names, or below the form. */
   send: () => unknown;
   button: string;
@@ -131,7 +128,6 @@ export function Form(props: {
     <form
       ref={form}
       class={`form ${props.class}`}
-      classList={{ inline: props.isInline }}
       novalidate
       onKeyDown={(event) => {
         if (props.byButtonOnly && event.key === 'Enter' && event.target instanceof HTMLInputElement)
@@ -160,9 +156,7 @@ export function Form(props: {
           {props.why}
         </span>
         {props.beside}
-        <Show when={!props.isInline && summary()}>
-          {(words) => <span class="refusal">{words()}</span>}
-        </Show>
+        <Show when={summary()}>{(words) => <span class="refusal">{words()}</span>}</Show>
         <p class="refusal" role="alert">
           {general()}
         </p>

@@ -10,7 +10,6 @@ export function NumberInput(
     Partial<InputProps> & {
       value: number | string;
       title?: string;
-      style?: JSX.CSSProperties;
       'aria-busy'?: boolean;
       /** Outside of the limits is a fault, too. */
       isStrict?: boolean;
@@ -77,7 +76,6 @@ export function NumberInput(
         aria-describedby={isSaid() && !props.onFault ? faultId : props['aria-describedby']}
         data-step={props.step}
         title={props.title}
-        style={props.style}
         disabled={props.disabled}
         onInput={() => {
           read();
