@@ -1,6 +1,6 @@
 // The page's address below its session: `/s/NAME/VIEW`, or `/s/NAME/learn/LESSON` for the laboratory with a lesson.
 
-import { createSignal, onCleanup, type Accessor } from 'solid-js';
+import { createSignal, onCleanup } from 'solid-js';
 import { addressOf, pathOf } from '../net/base';
 import type { View as OtherView } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
@@ -21,16 +21,6 @@ interface Place {
   readonly lesson: string | undefined;
 }
 
-export interface Address {
-  readonly view: Accessor<View>;
-  readonly lesson: Accessor<string | undefined>;
-  /** The address that a view has. */
-  of(view: View): string;
-  show(view: View): void;
-  /** Opens a lesson, or closes the open one. */
-  learn(lesson: string | undefined): void;
-}
-
 const isView = (text: string | undefined): text is View =>
   text !== undefined && Object.hasOwn(VIEWS, text);
 
@@ -40,7 +30,9 @@ function placeOf(pathname: string, lesson?: string): Place {
   return { view: 'laboratory', lesson: view === 'learn' ? named : undefined };
 }
 
-export function createAddress(page: Window): Address {
+export type Address = ReturnType<typeof createAddress>;
+
+export function createAddress(page: Window) {
   const { location, history } = page;
   const [place, setPlace] = createSignal(placeOf(location.pathname));
   const session = `/s/${sessionOf(location)}`;
@@ -62,9 +54,11 @@ export function createAddress(page: Window): Address {
   return {
     view: () => place().view,
     lesson: () => place().lesson,
-    of: (view) => addressAt({ ...place(), view }),
-    show: (view) => go({ view }),
-    learn: (lesson) => go({ lesson }),
+    /** The address that a view has. */
+    of: (view: View) => addressAt({ ...place(), view }),
+    show: (view: View) => go({ view }),
+    /** Opens a lesson, or closes the open one. */
+    learn: (lesson: string | undefined) => go({ lesson }),
   };
 }
 

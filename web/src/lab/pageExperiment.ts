@@ -1,6 +1,6 @@
 // The experiment link in the page's address: loaded once, and only by the operator.
 
-import { createEffect, createMemo, createSignal, untrack, type Accessor } from 'solid-js';
+import { createEffect, createMemo, createSignal, untrack } from 'solid-js';
 import {
   type Experiment,
   experimentFrom,
@@ -16,22 +16,9 @@ import type { Notices, Session, Trial } from './slices';
 import { takeControl } from './takeControl';
 import { reasonText } from '../net/problem';
 
-export interface PageExperiment {
-  /** The experiment of the address that is not loaded yet, because a viewer may not load it. */
-  readonly requested: Accessor<Experiment | undefined>;
-  /** Why the link is not valid. */
-  readonly broken: Accessor<string | undefined>;
-  /** The link of the page's present experiment. */
-  readonly now: Accessor<string | undefined>;
-  /** Loads the experiment of the address. Takes control first if possible. */
-  load(): void;
-  /** Loads a link from this page, such as a preset. */
-  open(link: string): Promise<void>;
-  /** Dismisses the notice. */
-  readonly forget: () => void;
-}
+export type PageExperiment = ReturnType<typeof createPageExperiment>;
 
-export function createPageExperiment(lab: Session & Trial & Notices, page: Window): PageExperiment {
+export function createPageExperiment(lab: Session & Trial & Notices, page: Window) {
   const [hash, setHash] = createSignal(page.location.hash);
   /** Whether to load it as soon as this browser is the operator. */
   const [wanted, setWanted] = createSignal(false);
@@ -96,25 +83,31 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     return scene && state && linkOf(scene, state);
   });
   return {
+    /** The experiment of the address that is not loaded yet, because a viewer may not load it. */
     requested,
+    /** Why the link is not valid. */
     broken: () => {
       const now = reading();
       return now.kind === 'broken' ? now.why : undefined;
     },
+    /** The link of the page's present experiment. */
     now,
-    load() {
+    /** Loads the experiment of the address. Takes control first if possible. */
+    load: () => {
       setWanted(true);
       if (lab.canOperate()) return;
       void takeControl(lab);
     },
-    async open(link) {
+    /** Loads a link from this page, such as a preset. */
+    open: async (link: string) => {
       const now = known();
       if (!now) return;
       const read = experimentFrom(link, now);
       if (read.kind === 'experiment') await send(read.experiment);
       else if (read.kind === 'broken') lab.notify('playback', read.why);
     },
-    forget() {
+    /** Dismisses the notice. */
+    forget: () => {
       leaveAddress(page, 'hash');
       settle();
     },

@@ -1,6 +1,6 @@
 // The panels of the inspector, one at a time.
 
-import { createSignal, type Accessor } from 'solid-js';
+import { createSignal } from 'solid-js';
 import { isPhone } from '../ui/windowSize';
 import { createChoice } from '../ui/storage';
 
@@ -14,21 +14,9 @@ export type PanelName = TabbedPanel | 'setup' | 'layers';
 const isTabbed = (panel: PanelName): panel is TabbedPanel =>
   panel !== 'setup' && panel !== 'layers';
 
-export interface Panels {
-  /** The open panel; undefined while the inspector is hidden. */
-  readonly panel: Accessor<PanelName | undefined>;
-  readonly showPanel: (panel: PanelName) => void;
-  /** Closes a panel without a tab; otherwise hides the inspector. */
-  readonly closePanel: () => void;
-  /** Hides the inspector, or shows its last panel again. */
-  readonly toggleInspector: () => void;
-  /** Whether the map fills its place; nothing else enlarges it. */
-  readonly fills: Accessor<boolean>;
-  /** Fills it without the inspector, or ends that. */
-  readonly toggleFill: () => void;
-}
+export type Panels = ReturnType<typeof createPanels>;
 
-export function createPanels(): Panels {
+export function createPanels() {
   const [tab, setTab] = createChoice('panel', TABBED);
   const [opened, setOpened] = createSignal<PanelName>();
   const [inspector, setInspector] = createChoice('inspector', ['shown', 'hidden']);
@@ -42,18 +30,23 @@ export function createPanels(): Panels {
     else setInspector(shown ? 'shown' : 'hidden');
   };
   return {
-    panel: () => (isShown() ? (opened() ?? tab()) : undefined),
-    showPanel: (panel) => {
+    /** The open panel; undefined while the inspector is hidden. */
+    panel: (): PanelName | undefined => (isShown() ? (opened() ?? tab()) : undefined),
+    showPanel: (panel: PanelName) => {
       if (isTabbed(panel)) setTab(panel);
       setOpened(isTabbed(panel) ? undefined : panel);
       show(true);
     },
+    /** Closes a panel without a tab; otherwise hides the inspector. */
     closePanel: () => {
       if (opened() === undefined || isPhone()) show(false);
       setOpened(undefined);
     },
+    /** Hides the inspector, or shows its last panel again. */
     toggleInspector: () => show(!isShown()),
+    /** Whether the map fills its place; nothing else enlarges it. */
     fills,
+    /** Fills it without the inspector, or ends that. */
     toggleFill: () => {
       const next = !fills();
       if (next) show(false);

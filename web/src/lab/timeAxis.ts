@@ -1,6 +1,6 @@
 // The axis of the time line and of the plots above it.
 
-import { createMemo, createSignal, type Accessor } from 'solid-js';
+import { createMemo, createSignal } from 'solid-js';
 import { createChoice } from '../ui/storage';
 import { hasLanes } from './lanes';
 import type { Contested, Trial } from './slices';
@@ -47,22 +47,14 @@ export function shownSpan(
   return { from_s: to_s - width_s, to_s };
 }
 
-export interface TimeAxis {
-  readonly span: Accessor<Span>;
-  /** Where a time is on the axis: 0 at its beginning, 1 at its end, also beyond. */
-  readonly share: (time_s: number) => number;
-  readonly choice: Accessor<WindowChoice>;
-  readonly choose: (choice: WindowChoice) => void;
-  /** Time under a pointer. */
-  readonly pointed_s: Accessor<number | undefined>;
-  readonly point: (time_s: number | undefined) => void;
-}
+export type TimeAxis = ReturnType<typeof createTimeAxis>;
 
-export function createTimeAxis(lab: Trial & Contested): TimeAxis {
+export function createTimeAxis(lab: Trial & Contested) {
   const [choice, choose] = createChoice(
     'window',
     WINDOWS.map(([id]) => id) as [WindowChoice, ...WindowChoice[]],
   );
+  /** Time under a pointer. */
   const [pointed_s, point] = createSignal<number>();
   const rivals_s = createMemo(() =>
     Math.max(0, ...(lab.contest.ghosts()?.ghosts ?? []).map(({ total_s }) => total_s ?? 0)),
@@ -82,6 +74,7 @@ export function createTimeAxis(lab: Trial & Contested): TimeAxis {
     undefined,
     { equals: (a, b) => a.from_s === b.from_s && a.to_s === b.to_s },
   );
+  /** Where a time is on the axis: 0 at its beginning, 1 at its end, also beyond. */
   const share = (time_s: number): number =>
     (time_s - span().from_s) / (span().to_s - span().from_s);
   return { span, share, choice, choose, pointed_s, point };

@@ -29,22 +29,16 @@ export function coarseToFine(count: number): number[] {
   return [...order];
 }
 
-export interface ValueMaps {
-  readonly cells: Accessor<TrainingCells | undefined>;
-  /** By their index; undefined where one was not read. */
-  readonly frames: Accessor<readonly (TrainingFrame | undefined)[]>;
-  /** Why the last request failed; undefined if it did not. */
-  readonly error: Accessor<string | undefined>;
-}
-
 /** `wanted` are the value maps to read, by their index, the first one first. The id of the training stays the same. */
 export function createValueMaps(
   summary: Accessor<TrainingSummary>,
   wanted: (cells: TrainingCells) => readonly number[],
   load: <A>(path: string) => Promise<A> = get,
-): ValueMaps {
+) {
   const [cells, setCells] = createSignal<TrainingCells>();
+  /** By their index; undefined where one was not read. */
   const [frames, setFrames] = createSignal<readonly (TrainingFrame | undefined)[]>([]);
+  /** Why the last request failed; undefined if it did not. */
   const [error, setError] = createSignal<string>();
   const path = trainingPath(summary().id);
   const hasCells = (): boolean => {
