@@ -5,7 +5,6 @@ import { lineOf, strokeCased } from '../../plan/marks';
 import type { Draw, MovingPicture } from '../../plan/layer';
 import { drawTrail } from '../../plan/drawTrail';
 import { pxFromWorld } from '../../plan/transform';
-import { trailsOf } from './trail';
 
 const LINE_PX = 3.4;
 /** Points of a line that are nearer to each other do not change its look. */
@@ -16,11 +15,12 @@ const carrierAt = (controller: number, mode: number): Controller | undefined =>
   mode === 1 ? undefined : CARRIERS[controller];
 
 export const drawTrails: Draw<MovingPicture> = (ctx, { view, palette, state, history }) => {
-  const [tool, bead] = trailsOf(state, history);
-  drawTrail(ctx, view, palette.magnet, tool.xs_m, tool.ys_m);
-  const { xs_m, ys_m } = bead;
-  const { controller, mode, tick } = history.window(0, state.sim_time_s);
-  const last = xs_m.length - 1;
+  const { tool_x_m, tool_y_m, bead_x_m, bead_y_m, controller, mode, tick } = history.window(
+    0,
+    state.sim_time_s,
+  );
+  drawTrail(ctx, view, palette.magnet, tool_x_m, tool_y_m);
+  const last = bead_x_m.length - 1;
   let path = new Path2D();
   let carrier: Controller | undefined;
   let isEmpty = true;
@@ -35,7 +35,7 @@ export const drawTrails: Draw<MovingPicture> = (ctx, { view, palette, state, his
   for (let i = 0; i <= last; i++) {
     const now = carrierAt(controller[i] ?? 0, mode[i] ?? 0);
     const isOther = now !== carrier;
-    const [x, y] = pxFromWorld(view, [xs_m[i] ?? 0, ys_m[i] ?? 0]);
+    const [x, y] = pxFromWorld(view, [bead_x_m[i] ?? 0, bead_y_m[i] ?? 0]);
     const isFar = !(Math.abs(x - fromX) + Math.abs(y - fromY) < APART_PX);
     const isJump = i > 0 && history.hasJump(tick[i - 1] ?? 0, tick[i] ?? 0);
     if (!isFar && !isOther && !isJump && i < last) continue;

@@ -1,10 +1,10 @@
 // The trails on the floor of the 3-D scene, in the same looks as on the map.
 
 import { Object3D } from 'three';
+import type { Column } from '../../lab/history';
 import type { CreateSceneObject } from '../../scene/sceneLayer';
 import { Strokes } from '../../scene/strokes';
 import { CARRIERS, type Controller, dashOf, LOOKS } from '../../ui/controllers';
-import { trailsOf } from './trail';
 
 const UP_M = 1.2e-3;
 /** More points than this do not change the look of a trail. */
@@ -77,24 +77,24 @@ export const sceneTrails: CreateSceneObject = (paints) => {
     object,
     place: (state, history) => {
       for (const strokes of [casing, tool, ...looks.values()]) strokes.clear();
-      const [toolTrail, { xs_m, ys_m }] = trailsOf(state, history);
-      const { controller, mode, tick } = history.window(0, state.sim_time_s);
-      const last = xs_m.length - 1;
-      const stride = Math.max(1, Math.ceil(xs_m.length / POINTS));
+      const now = history.window(0, state.sim_time_s);
+      const last = now.tick.length - 1;
+      const stride = Math.max(1, Math.ceil(now.tick.length / POINTS));
+      const at = (name: Column, k: number): number => now[name][k] ?? 0;
       const dashes = new Map<Controller | undefined, Dashes>();
       // Always the same points, so that dashes do not move, and the newest one.
       for (let before = 0; before < last; before += stride) {
         const i = Math.min(last, before + stride);
-        const at = (xs: Float64Array, k: number): number => xs[k] ?? 0;
-        tool.move(at(toolTrail.xs_m, before), at(toolTrail.ys_m, before), UP_M);
-        tool.line(at(toolTrail.xs_m, i), at(toolTrail.ys_m, i), UP_M);
-        const [x, y, toX, toY] = [at(xs_m, before), at(ys_m, before), at(xs_m, i), at(ys_m, i)];
-        const carrier = mode[i] === 1 ? undefined : CARRIERS[controller[i] ?? 0];
+        tool.move(at('tool_x_m', before), at('tool_y_m', before), UP_M);
+        tool.line(at('tool_x_m', i), at('tool_y_m', i), UP_M);
+        const [x, y] = [at('bead_x_m', before), at('bead_y_m', before)];
+        const [toX, toY] = [at('bead_x_m', i), at('bead_y_m', i)];
+        const carrier = at('mode', i) === 1 ? undefined : CARRIERS[at('controller', i)];
         const way =
           dashes.get(carrier) ??
           new Dashes(lookOf(carrier), carrier ? dashOf(carrier, LINE_PX) : LOOSE_DASH);
         dashes.set(carrier, way);
-        if (history.hasJump(tick[before] ?? 0, tick[i] ?? 0)) continue;
+        if (history.hasJump(at('tick', before), at('tick', i))) continue;
         casing.move(x, y, UP_M).line(toX, toY, UP_M);
         way.line(x, y, toX, toY);
       }
