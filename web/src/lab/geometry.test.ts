@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { clampToRect, insidePolygon, nextToward } from './geometry';
+import { clampToRect, distanceToLine, insidePolygon, nextToward, placeAfter } from './geometry';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
@@ -7,6 +7,28 @@ describe('rectangles', () => {
   it('clamp points outside and keep points inside', () => {
     expect(clampToRect(WORKSPACE, [1, -1])).toEqual([0.28, -0.54]);
     expect(clampToRect(WORKSPACE, [0.1, -0.3])).toEqual([0.1, -0.3]);
+  });
+});
+
+describe('a way', () => {
+  it('is gone from place to place, and stays at its end', () => {
+    const at = (steps: number) =>
+      placeAfter(
+        [
+          [1, 0],
+          [2, 0],
+          [3, 0],
+        ],
+        steps,
+      )?.[0];
+    expect([0, 0.5, 2, 2.5, Infinity].map(at)).toEqual([1, 1.5, 3, 3, 3]);
+    expect(placeAfter([], 1)).toBeUndefined();
+  });
+
+  it('is as far as its nearest point', () => {
+    expect(distanceToLine([1, 2], [0, 0], [4, 0])).toBe(2);
+    expect(distanceToLine([7, 4], [0, 0], [4, 0])).toBe(5);
+    expect(distanceToLine([3, 4], [0, 0], [0, 0])).toBe(5);
   });
 });
 

@@ -16,6 +16,24 @@ export function distance(a: Vec2, b: Vec2): number {
   return Math.hypot(a[0] - b[0], a[1] - b[1]);
 }
 
+/** The point at a share of the way from one to another. */
+export function between(from: Vec2, to: Vec2, share: number): [number, number] {
+  return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+}
+
+/** The place after some steps of a way, which may be a fraction; at its end from then on. */
+export function placeAfter(places: readonly Vec2[], steps: number): Vec2 | undefined {
+  const [from, to] = [places[Math.floor(steps)], places[Math.floor(steps) + 1]];
+  return from && to ? between(from, to, steps % 1) : places.at(-1);
+}
+
+/** Distance of a point from the straight line between two others. */
+export function distanceToLine(at: Vec2, from: Vec2, to: Vec2): number {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const along = ((at[0] - from[0]) * dx + (at[1] - from[1]) * dy) / (dx * dx + dy * dy || 1);
+  return distance(at, between(from, to, Math.min(1, Math.max(0, along))));
+}
+
 export function clampToRect(rect: Rect, point: Vec2): [number, number] {
   return [
     Math.min(rect.x_max_m, Math.max(rect.x_min_m, point[0])),

@@ -1,7 +1,7 @@
 // Draws the camera's field of view and the obstacles in it.
 
 import type { OverlayMessage } from '../../net/protocol.gen';
-import { distance, type Vec2 } from '../../lab/geometry';
+import { between, distance, type Vec2 } from '../../lab/geometry';
 import { strokeCased } from '../../plan/marks';
 import type { BasePicture, MovingPicture } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
@@ -22,9 +22,7 @@ export function drawFootprint(ctx: Ctx, { view, palette, scene, state }: MovingP
   corners.forEach((corner, i) => {
     const toward = (other: Vec2 | undefined): Vec2 => {
       if (!other) return corner;
-      const share = Math.min(1, BRACKET_PX / Math.max(1, distance(corner, other)));
-      const along = (k: 0 | 1): number => corner[k] + share * (other[k] - corner[k]);
-      return [along(0), along(1)];
+      return between(corner, other, Math.min(1, BRACKET_PX / Math.max(1, distance(corner, other))));
     };
     ctx.moveTo(...toward(corners.at(i - 1)));
     ctx.lineTo(...corner);

@@ -2,9 +2,8 @@
 
 import { createMemo } from 'solid-js';
 import { isOver } from '../../lab/contest';
-import type { Vec2 } from '../../lab/geometry';
+import { placeAfter } from '../../lab/geometry';
 import type { Contested, Trial } from '../../lab/slices';
-import type { TraceMessage } from '../../net/protocol.gen';
 import { drawGhosts, labelsBeside } from '../../plan/drawGhost';
 import type { LayerContext, MapLayer } from '../../plan/layer';
 import { strokeCased } from '../../plan/marks';
@@ -16,17 +15,6 @@ import { ghostName } from '../../lab/challenges';
 const LOSS_PX = 13;
 /** The base map is drawn again for each of these. */
 const FRAMES_PER_S = 10;
-
-/** A place between two samples, or the last one. */
-function placeAt(places: readonly Vec2[], sample: number): Vec2 | undefined {
-  const [from, to] = [places[Math.floor(sample)], places[Math.floor(sample) + 1]];
-  if (!from || !to) return places.at(-1);
-  const share = sample % 1;
-  return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
-}
-
-const pathUntil = ({ bead_m }: TraceMessage, sample: number): readonly Vec2[] =>
-  bead_m.slice(0, Math.floor(sample) + 1);
 
 export const CHALLENGE_LAYER: MapLayer = {
   id: 'challenge',
@@ -51,11 +39,11 @@ export const CHALLENGE_LAYER: MapLayer = {
         return (ctx, { view, palette }) => {
           const labels = labelsBeside(view, goal);
           const shown = ghosts.flatMap((ghost) => {
-            const tool_m = placeAt(ghost.trace.tool_m, sample);
-            const bead_m = placeAt(ghost.trace.bead_m, sample);
+            const tool_m = placeAfter(ghost.trace.tool_m, sample);
+            const bead_m = placeAfter(ghost.trace.bead_m, sample);
             if (!tool_m || !bead_m) return [];
             const { controller } = ghost;
-            const path_m = pathUntil(ghost.trace, sample);
+            const path_m = ghost.trace.bead_m.slice(0, Math.floor(sample) + 1);
             return [{ controller, label: ghostName(ghost), path_m, tool_m, bead_m }];
           });
           drawGhosts(ctx, view, palette, shown, labels);

@@ -1,6 +1,6 @@
 // A map as the user draws it, in millimetres, x right and y down, as in its SVG. Pure.
 
-import { distance, insidePolygon, type Vec2 } from '../../lab/geometry';
+import { distance, distanceToLine, insidePolygon, type Vec2 } from '../../lab/geometry';
 import type { PositionerKind } from '../../net/protocol.gen';
 
 export type Mm = Vec2;
@@ -128,14 +128,6 @@ export function clampedTo(frame: Frame, [x, y]: Mm): Mm {
 export function snapped([x, y]: Mm, spacing_mm: number): Mm {
   if (spacing_mm === 0) return [x, y];
   return [Math.round(x / spacing_mm) * spacing_mm, Math.round(y / spacing_mm) * spacing_mm];
-}
-
-function distanceToLine([x, y]: Mm, from: Mm, to: Mm): number {
-  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-  const square = dx * dx + dy * dy;
-  const share = square === 0 ? 0 : ((x - from[0]) * dx + (y - from[1]) * dy) / square;
-  const along = Math.min(1, Math.max(0, share));
-  return distance([x, y], [from[0] + along * dx, from[1] + along * dy]);
 }
 
 function isAt(shape: Shape, at: Mm, slop_mm: number): boolean {

@@ -1,6 +1,6 @@
 // A goal for a map that has none: the place with the longest way from the bead. Pure.
 
-import { distance, insidePolygon, type Vec2 } from '../../lab/geometry';
+import { distance, distanceToLine, insidePolygon, type Vec2 } from '../../lab/geometry';
 import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
 
 const STEP_M = 0.01;
@@ -9,19 +9,12 @@ const ROOM_M = 0.0175;
 /** From the border, so that the mark of the goal is whole. */
 const GOAL_ROOM_M = 1.2 * GOAL_RADIUS_M;
 
-function toSegment(at: Vec2, a: Vec2, b: Vec2): number {
-  const [right, up] = [b[0] - a[0], b[1] - a[1]];
-  const along = (at[0] - a[0]) * right + (at[1] - a[1]) * up;
-  const share = Math.min(1, Math.max(0, along / (right * right + up * up || 1)));
-  return distance(at, [a[0] + share * right, a[1] + share * up]);
-}
-
 const isClearOf =
   (at: Vec2) =>
   (wall: Polygon): boolean =>
     !insidePolygon(wall, at) &&
     [wall.exterior, ...wall.holes].every((ring) =>
-      ring.every((to, index) => toSegment(at, ring.at(index - 1) ?? to, to) >= ROOM_M),
+      ring.every((to, index) => distanceToLine(at, ring.at(index - 1) ?? to, to) >= ROOM_M),
     );
 
 /** Undefined if there is no room. */

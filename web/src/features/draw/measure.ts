@@ -1,6 +1,6 @@
 // How large a shape is, as words, and where to write them. Pure.
 
-import { distance } from '../../lab/geometry';
+import { between, distance } from '../../lab/geometry';
 import type { Mm, Shape } from './drawing';
 
 const whole = (mm: number): string => mm.toFixed(0);
@@ -16,8 +16,7 @@ function halfway(points: readonly Mm[], steps: readonly number[], at_mm: number)
   for (const [index, step] of steps.entries()) {
     const [from, to] = [points[index], points[index + 1]];
     if (from && to && step > 0 && left_mm <= step) {
-      const share = left_mm / step;
-      return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+      return between(from, to, left_mm / step);
     }
     left_mm -= step;
   }

@@ -1,6 +1,6 @@
 // Draws a value map of a training over the walls of its map, and the episodes that move on it.
 
-import type { Vec2 } from '../../lab/geometry';
+import { placeAfter, type Vec2 } from '../../lab/geometry';
 import type {
   EpisodeEnding,
   TrainingCells,
@@ -13,7 +13,7 @@ import { drawGoal } from '../../plan/drawMoving';
 import { drawArrows, drawColours, type Values } from '../../plan/drawValues';
 import { strokeCased } from '../../plan/marks';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { placeAfter, startsThat } from './grid';
+import { startsThat } from './grid';
 import type { Palette } from '../../ui/palette';
 
 type Ctx = CanvasRenderingContext2D;
@@ -113,13 +113,15 @@ function drawEpisode(
   isGreedy: boolean,
 ): void {
   const { view, palette } = base;
-  const at = placeAfter(cells, episode, steps);
+  const places = episode.cells
+    .map((cell) => cells.centers_m[cell])
+    .filter((one) => one !== undefined);
+  const at = placeAfter(places, steps);
   if (!at) return;
   const line = { colour: EPISODE, edge: EPISODE_EDGE, width_px: 2.2 };
   ctx.beginPath();
-  for (const index of episode.cells.slice(0, Math.floor(steps) + 1)) {
-    const center = cells.centers_m[index];
-    if (center) ctx.lineTo(...pxFromWorld(view, center));
+  for (const place of places.slice(0, Math.floor(steps) + 1)) {
+    ctx.lineTo(...pxFromWorld(view, place));
   }
   const [x, y] = pxFromWorld(view, at);
   ctx.lineTo(x, y);

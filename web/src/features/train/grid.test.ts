@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { around, cellAt, fanAt, placeAfter, startsThat, valueCells } from './grid';
+import { around, cellAt, fanAt, startsThat, valueCells } from './grid';
 import { CELLS, frameOf } from './testing';
 
 describe('the cells', () => {
@@ -23,19 +23,6 @@ describe('the cells', () => {
       action: 0,
     });
     expect(startsThat(frameOf(100), 'reached')).toEqual([0, 3]);
-  });
-});
-
-describe('an episode', () => {
-  const episode = { cells: [0, 1, 2], ending: 'reached' as const };
-
-  it('moves from cell to cell and stays at its end', () => {
-    const at = (steps: number) => placeAfter(CELLS, episode, steps)?.[0];
-    expect(at(0)).toBeCloseTo(0.01);
-    expect(at(0.5)).toBeCloseTo(0.015);
-    expect(at(2)).toBeCloseTo(0.03);
-    expect(at(Infinity)).toBeCloseTo(0.03);
-    expect(placeAfter(CELLS, { ...episode, cells: [] }, 1)).toBeUndefined();
   });
 });
 

@@ -2,13 +2,7 @@
 // each. Pure.
 
 import { distance, leastOf, type Vec2 } from '../../lab/geometry';
-import type {
-  EpisodeEnding,
-  Rect,
-  TrainingCells,
-  TrainingEpisode,
-  TrainingFrame,
-} from '../../net/protocol.gen';
+import type { EpisodeEnding, Rect, TrainingCells, TrainingFrame } from '../../net/protocol.gen';
 import type { ValueCells } from '../../plan/values';
 
 /** A place farther than this from each cell, in cells, belongs to none. */
@@ -48,21 +42,6 @@ export function around({ centers_m, spacing_m }: TrainingCells): Rect {
 /** Indices of the starts from which an episode ends so. */
 export function startsThat(frame: TrainingFrame, ending: EpisodeEnding): number[] {
   return frame.endings.flatMap((one, index) => (one === ending ? [index] : []));
-}
-
-/** The place of an episode after a number of steps, which may be a fraction; at its end from then on. */
-export function placeAfter(
-  { centers_m }: TrainingCells,
-  { cells }: TrainingEpisode,
-  steps: number,
-): Vec2 | undefined {
-  const last = cells.length - 1;
-  const whole = Math.min(last, Math.max(0, Math.floor(steps)));
-  const from = centers_m[cells[whole] ?? -1];
-  const to = centers_m[cells[Math.min(last, whole + 1)] ?? -1];
-  if (!from || !to) return from;
-  const share = Math.min(1, Math.max(0, steps - whole));
-  return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
 }
 
 /** Quantiles .05, .25, .5, .75 and .95 at a cell, over the updates. A network's quantiles may cross, so they are sorted. */
