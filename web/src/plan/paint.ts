@@ -89,13 +89,17 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage): void {
   drawTracked(ctx, view, palette, state.bead_tracked_m);
 }
 
+function paintCover(ctx: Ctx, base: Base): void {
+  paintAbove(ctx, base);
+  if (base.fog) clipped(drawFog(base.fog))(ctx, base.ground);
+}
+
 /** It keeps what does not change from one picture to the next. */
 export function createPainter() {
   const grounds = new Sheet<Ground>(paintGround);
   const bases = new Sheet<Base>((ctx, base, size, ratio) => {
     grounds.copy(ctx, base.ground, size, ratio);
-    paintAbove(ctx, base);
-    if (base.fog) clipped(drawFog(base.fog))(ctx, base.ground);
+    paintCover(ctx, base);
   });
   return (
     canvas: HTMLCanvasElement,
@@ -106,7 +110,11 @@ export function createPainter() {
     const ctx = contextOf(canvas, size, ratio);
     if (!ctx) return;
     const { base, state, cursor } = picture;
-    bases.copy(ctx, base, size, ratio);
+    if (base.ground.moved) {
+      // Everything changes with every state: copies would only cost time.
+      paintGround(ctx, base.ground);
+      paintCover(ctx, base);
+    } else bases.copy(ctx, base, size, ratio);
     if (state) paintState(ctx, picture, state);
     if (cursor) drawCursor(ctx, base.ground.view, base.ground.palette, cursor);
   };

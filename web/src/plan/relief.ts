@@ -51,7 +51,6 @@ function soften(
 
 export class Relief {
   private shots: readonly Shot[] = [];
-  private moved: HTMLCanvasElement | undefined;
   private image: HTMLCanvasElement | undefined;
 
   constructor(
@@ -62,30 +61,18 @@ export class Relief {
   /** Draws the walls and their shadow. While the view changes, earlier bitmaps are scaled. */
   draw(ctx: Ctx, view: View, isStill: boolean): void {
     for (const shot of this.shotsFor(ctx, view, isStill)) {
-      shot.walls ??= this.paint(shot, (onto) => {
-        this.paintWalls(onto, shot);
-      });
+      shot.walls ??= this.paint(shot, (onto) => this.paintWalls(onto, shot));
       this.copy(ctx, view, shot, shot.walls);
     }
   }
 
-  /** Draws tissue where `solid` is, for walls that are not at rest. Filling with a pattern would be much slower. */
+  /** Draws tissue where `solid` is, for walls that are not at rest. */
   drawMoved(ctx: Ctx, view: View, isStill: boolean, solid: Path2D): void {
-    const shots = this.shotsFor(ctx, view, isStill);
-    const { width, height } = ctx.canvas;
-    const sheet = (this.moved ??= document.createElement('canvas'));
-    const ratio = ctx.getTransform().a;
-    const onto = contextOf(sheet, { width: width / ratio, height: height / ratio }, ratio);
-    if (!onto) return;
-    onto.fill(solid);
-    onto.globalCompositeOperation = 'source-atop';
-    for (const shot of shots) {
-      this.copy(onto, view, shot, this.tissueOf(shot));
-    }
-    onto.globalCompositeOperation = 'source-over';
     ctx.save();
-    ctx.resetTransform();
-    ctx.drawImage(sheet, 0, 0);
+    ctx.clip(solid);
+    for (const shot of this.shotsFor(ctx, view, isStill)) {
+      this.copy(ctx, view, shot, this.tissueOf(shot));
+    }
     ctx.restore();
   }
 
@@ -119,9 +106,7 @@ export class Relief {
   }
 
   private tissueOf(shot: Shot): HTMLCanvasElement {
-    return (shot.tissue ??= this.paint(shot, (ctx) => {
-      this.paintTissue(ctx, shot);
-    }));
+    return (shot.tissue ??= this.paint(shot, (ctx) => this.paintTissue(ctx, shot)));
   }
 
   private copy(ctx: Ctx, view: View, shot: Shot, from: HTMLCanvasElement): void {
@@ -219,9 +204,7 @@ export class Relief {
         ctx,
         ratio,
         { colour: shade(opacity), blur: blur * unit, to: [x * unit, y * unit] },
-        () => {
-          ctx.fill(solid, 'evenodd');
-        },
+        () => ctx.fill(solid, 'evenodd'),
       );
     }
     ctx.restore();
