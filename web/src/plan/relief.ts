@@ -3,7 +3,7 @@
 
 import type { Palette } from '../ui/palette';
 import { rgb } from './colourRamp';
-import { contextOf, type Ctx } from './sheet';
+import type { Ctx } from './sheet';
 import { tissueImage } from './tissue';
 import { pxRect, type View } from './transform';
 import { cornerPx, edgePath, framed, freePath, type Tray, reliefPx, trayPath, unitM } from './tray';
