@@ -15,8 +15,8 @@ const GRAB_PX = 56;
 
 export default function DemoPage(): JSX.Element {
   const lab = createLab(window, MAP_LAYERS);
-  const interaction = createInteraction(lab, GRAB_PX);
   const layers = createLayers(MAP_LAYERS, lab);
+  const interaction = createInteraction(lab, layers, GRAB_PX);
   const [isFlat, setFlat] = createSignal(false);
   const toPlan = (): void => {
     setFlat(true);

@@ -46,8 +46,8 @@ export function Page(): JSX.Element {
   const [picture, setPicture] = createSignal<ViewPicture>();
   const capture = createCapture(lab, picture);
   const opener = createMapOpener(lab);
-  const interaction = createInteraction(lab);
   const layers = createLayers(MAP_LAYERS, lab);
+  const interaction = createInteraction(lab, layers);
   const first = createFirstVisit(address, window);
   const [mode, chooseMode] = createChoice('view', ['plan', 'scene']);
   createEffect(() => {

@@ -128,7 +128,11 @@ export function Stage(props: {
           fallback={
             <p id={HELP_ID} class="stage-hint">
               <Show when={lab.hello()?.role !== 'viewer'}>
-                <WorkspaceHint steers={lab.steering.isActive()} scene={isScene()} />
+                <WorkspaceHint
+                  steers={lab.steering.isActive()}
+                  scene={isScene()}
+                  press={interaction.press()}
+                />
               </Show>
             </p>
           }

@@ -2,6 +2,7 @@
 
 import { Show, type JSX } from 'solid-js';
 import { HandGrab, Keyboard, Move3d, Target, type IconNode } from 'lucide';
+import type { Press } from '../plan/layer';
 import { Icon } from '../ui/Icon';
 import { IS_TOUCH } from '../ui/touch';
 
@@ -14,7 +15,11 @@ function Hint(props: { icon: IconNode; children: JSX.Element }): JSX.Element {
   );
 }
 
-export function WorkspaceHint(props: { steers: boolean; scene: boolean }): JSX.Element {
+export function WorkspaceHint(props: {
+  steers: boolean;
+  scene: boolean;
+  press: Press | undefined;
+}): JSX.Element {
   return (
     <Show
       when={!props.steers}
@@ -28,7 +33,9 @@ export function WorkspaceHint(props: { steers: boolean; scene: boolean }): JSX.E
       }
     >
       <Hint icon={HandGrab}>Drag the bead to disturb it</Hint>{' '}
-      <Hint icon={Target}>{IS_TOUCH ? 'Tap' : 'Click'} to set the goal</Hint>{' '}
+      <Hint icon={Target}>
+        {IS_TOUCH ? 'Tap' : 'Click'} {props.press?.words ?? 'to set the goal'}
+      </Hint>{' '}
       <Show when={props.scene}>
         <Hint icon={Move3d}>Drag elsewhere to turn the view</Hint>
       </Show>

@@ -57,7 +57,8 @@ export function ViewCanvas(props: {
   const cursorName = (): string => {
     if (interaction.act().kind === 'held') return 'holding';
     if (lab.steering.isActive()) return 'steering';
-    return interaction.reachPx() === undefined ? 'free' : 'near-bead';
+    if (interaction.reachPx() !== undefined) return 'near-bead';
+    return interaction.isPressable() ? 'pressable' : 'free';
   };
 
   return (

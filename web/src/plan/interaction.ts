@@ -7,6 +7,7 @@ import type { ByHand, Notices, Session, Trial } from '../lab/slices';
 import { Limiter } from '../net/limiter';
 import { Repeater } from '../net/repeater';
 import { type Act, type Effect, type GestureEvent, type Mode, REST, step } from './gesture';
+import { type LiveLayer, type Press, shownPress } from './layer';
 import { causeOf, type Watched } from './release';
 
 const MAX_DRAGS_PER_S = 60;
@@ -76,6 +77,10 @@ export interface Interaction {
   readonly setFocused: Setter<boolean>;
   /** The point of the table under the pointer, otherwise under the keyboard's cursor. */
   readonly at: Accessor<Vec2 | undefined>;
+  /** What a press does now in place of setting the goal. */
+  readonly press: Accessor<Press | undefined>;
+  /** Whether it does that at the pointer. */
+  readonly isPressable: Accessor<boolean>;
   readonly setGoal: (at: Vec2) => void;
   /** Called when a view opens and closes. */
   enter(surface: Surface): void;
@@ -84,6 +89,7 @@ export interface Interaction {
 
 export function createInteraction(
   lab: Session & Trial & Notices & Pick<ByHand, 'steering'>,
+  layers: readonly LiveLayer[],
   grabPx?: number,
 ): Interaction {
   const [mode, setMode] = createSignal(REST);
@@ -113,6 +119,7 @@ export function createInteraction(
     if (!workspace || distance(clampToRect(workspace, at), at) > 0) return;
     if (mayAct()) void lab.send('workspace', { type: 'set_goal', x_m: at[0], y_m: at[1] });
   };
+  const press = createMemo(() => shownPress(layers));
   const perform = (effect: Effect): void => {
     switch (effect.type) {
       case 'steer':
@@ -122,7 +129,7 @@ export function createInteraction(
         lab.steering.lean('keys', surface?.turned(effect.direction) ?? effect.direction);
         break;
       case 'place':
-        (effect.take ?? setGoal)(effect.at);
+        (effect.take ?? press()?.at(effect.at) ?? setGoal)(effect.at);
         break;
       case 'refuse':
         mayAct();
@@ -168,6 +175,11 @@ export function createInteraction(
     return here && canTake && isAtBead(here) ? here.reachPx : undefined;
   });
   const isPicking = createMemo(() => mode().take !== undefined);
+  const isPressable = createMemo(() => {
+    const px = pointing()?.px;
+    const at = px && view()?.toWorld(px);
+    return !isPicking() && at !== undefined && press()?.at(at) !== undefined;
+  });
 
   createEffect<Watched | undefined>((before) => {
     const now: Watched = {
@@ -218,6 +230,8 @@ export function createInteraction(
     isAtBead,
     grabPx,
     reachPx,
+    press,
+    isPressable,
     setGoal,
     cursor,
     setCursor,

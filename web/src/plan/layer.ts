@@ -3,6 +3,7 @@
 import { createMemo, type Accessor, type JSX } from 'solid-js';
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
+import type { Vec2 } from '../lab/geometry';
 import type { View } from './transform';
 import type { Lab } from '../lab/slices';
 import type { Ctx } from './sheet';
@@ -46,7 +47,16 @@ type DrawnParts = {
   readonly [Part in keyof Drawings]?: Accessor<Drawings[Part] | undefined>;
 };
 
+/** What a press on the map does in place of setting the goal. */
+export interface Press {
+  /** Where, and what for: goes on after *Click* or *Tap*. */
+  readonly words: string;
+  /** Undefined for a place where it sets the goal. */
+  readonly at: (place: Vec2) => (() => void) | undefined;
+}
+
 export interface LayerParts extends DrawnParts {
+  readonly press?: Accessor<Press | undefined>;
   readonly legend?: () => JSX.Element;
 }
 
@@ -105,6 +115,10 @@ export function shownParts<Part extends keyof Drawings>(layers: readonly LiveLay
     return drawing ? [{ layer, drawing }] : [];
   });
 }
+
+/** What a press does now: that of the first shown layer that has one. */
+export const shownPress = (layers: readonly LiveLayer[]): Press | undefined =>
+  layers.flatMap((layer) => (layer.isShown() ? (layer.press?.() ?? []) : []))[0];
 
 export function createLayers<L extends MapLayer>(
   layers: readonly L[],

@@ -18,6 +18,7 @@ export function CellCard(props: {
   chosen: Required<Chosen>;
   label: string;
 }): JSX.Element {
+  let card: HTMLElement | undefined;
   const [trials, setTrials] = createSignal<readonly RecoveryTrial[]>([]);
   const row = () =>
     rowsOf(props.report, props.chosen.name).find(({ cell }) => cell === props.chosen.cell);
@@ -28,7 +29,11 @@ export function CellCard(props: {
   createEffect(
     on([() => `${props.report.id}/cells/${props.chosen.cell}`, () => row()?.repeats], ([path]) => {
       get<RecoveryTrials>(`${PATH}/${path}`)
-        .then((answer) => setTrials(answer.trials))
+        .then((answer) => {
+          setTrials(answer.trials);
+          // It lies below the figure, and the press may have been on the map.
+          card?.scrollIntoView({ block: 'nearest' });
+        })
         .catch(say);
     }),
   );
@@ -46,7 +51,7 @@ export function CellCard(props: {
   return (
     <Show when={row()}>
       {(row) => (
-        <section class="recovery-card" aria-label="The chosen cell">
+        <section ref={card} class="recovery-card" aria-label="The chosen cell">
           <h3>The chosen cell</h3>
           <p>
             <strong>{props.label}</strong>, {spotWords(row(), props.report.kind)}:{' '}

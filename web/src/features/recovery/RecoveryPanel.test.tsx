@@ -56,6 +56,9 @@ it('sends what is chosen, and shows why the server refuses it', async () => {
   expect(query).toMatchObject({ session: 'main', tick: 250, kind: 'place', grid: 24 });
 
   const columns = page.getByLabelText('Columns');
+  await expect
+    .element(page.getByTestId('recovery-size'))
+    .toHaveTextContent(/^At most \d+ trials\.$/);
   await columns.fill('3');
   await start.click();
   await expect

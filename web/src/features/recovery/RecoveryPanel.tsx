@@ -7,7 +7,7 @@ import type { PanelProps } from '../../lab/panel';
 import { operatorOnly } from '../../lab/operatorOnly';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { ByHand, Notices, Session, Trial } from '../../lab/slices';
-import { isActive } from '../../lab/trainingStage';
+import { isActive, leftWords } from '../../lab/trainingStage';
 import type { RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
 import { createAttempt } from '../../ui/attempt';
 import { Empty } from '../../ui/Empty';
@@ -15,6 +15,7 @@ import { clock, counted } from '../../ui/format';
 import { ChoiceField } from '../../ui/fields/fields';
 import { SmallButton } from '../../ui/SmallButton';
 import { CellCard } from './CellCard';
+import { isForGoal } from './cells';
 import { cancelRecovery, createShown } from './recoveries';
 import { Cells, Thumbnails, titleOf } from './RecoveryCells';
 import { RecoveryStart } from './RecoveryStart';
@@ -24,7 +25,10 @@ import './recovery.css';
 function progressWords({ stage, done, planned, message }: RecoverySummary): string {
   const counts = `${done} of ${counted(planned, 'trial')}`;
   if (stage === 'waiting') return 'waiting for another job';
-  if (stage === 'running') return counts;
+  if (stage === 'running') {
+    const trial_s = store.trial_s();
+    return trial_s === undefined ? counts : `${counts}, ${leftWords(trial_s * (planned - done))}`;
+  }
   if (stage === 'failed') return `failed: ${message ?? ''}`;
   return stage === 'done' ? counted(done, 'trial') : `cancelled after ${counts}`;
 }
@@ -97,10 +101,7 @@ function Progress(props: { lab: Session; report: RecoveryReport }): JSX.Element 
 
 function Report(props: { lab: Session & Trial & Notices; report: RecoveryReport }): JSX.Element {
   const { lab } = props;
-  const indices = createMemo((): readonly number[] => {
-    const front = props.report.names.indexOf(store.chosen()?.name ?? '');
-    return store.pair() ?? [Math.max(0, front)];
-  });
+  const indices = createMemo(() => store.shownOf(props.report));
   const chosen = createMemo((): Required<store.Chosen> | undefined => {
     const { name, cell } = store.chosen() ?? {};
     return name === undefined || cell === undefined ? undefined : { name, cell };
@@ -113,16 +114,13 @@ function Report(props: { lab: Session & Trial & Notices; report: RecoveryReport 
         {props.report.map === lab.scene()?.map
           ? ''
           : ', which is another map than that of the session,'}{' '}
+        {isForGoal(props.report, lab.goal()) ? '' : 'to another goal than the present one, '}
         from {clock(props.report.tick * (lab.scene()?.tick_s ?? 0))}: {progressWords(props.report)}
       </p>
       <Show when={isActive(props.report)}>
         <Progress lab={lab} report={props.report} />
       </Show>
-      <Thumbnails
-        lab={lab}
-        report={props.report}
-        shown={props.report.names[indices()[0] ?? 0] ?? ''}
-      />
+      <Thumbnails lab={lab} report={props.report} shown={props.report.names[indices()[0]] ?? ''} />
       <Cells lab={lab} report={props.report} indices={indices()} />
       <Show when={chosen()}>
         {(one) => (

@@ -1,7 +1,7 @@
 // Chooses what is tried from the shown moment, and starts a recovery map.
 
 import { Shield } from 'lucide';
-import { For, type JSX } from 'solid-js';
+import { createMemo, For, Show, type JSX } from 'solid-js';
 import { createTakingPart } from '../../lab/offered';
 import type { Session, Trial } from '../../lab/slices';
 import { RECOVERY_FIELDS } from '../../net/forms.gen';
@@ -10,9 +10,10 @@ import type { RecoveryKind, RecoveryReport } from '../../net/protocol.gen';
 import { CheckField, ChoiceField, NumberField } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
 import { numberOf } from '../../ui/fields/number';
-import { clock } from '../../ui/format';
+import { clock, counted, roughly } from '../../ui/format';
 import { startRecovery } from './recoveries';
-import { change, draft, edits } from './store';
+import { cellsMost } from './size';
+import { change, draft, edits, trial_s } from './store';
 
 const KINDS: readonly (readonly [RecoveryKind, string])[] = [
   ['place', 'Put elsewhere'],
@@ -45,6 +46,21 @@ export function RecoveryStart(props: {
       change({ left_out });
     },
   );
+  const trials = createMemo((): number => {
+    const { kind, grid, repeats } = draft();
+    const [columns, scene] = [numberOf(grid), lab.scene()];
+    const { max } = RECOVERY_FIELDS.grid;
+    // What is typed may be no number yet, or a huge one.
+    if (!scene || !(columns > 0 && columns <= max) || !Number.isInteger(columns)) return NaN;
+    return cellsMost(kind, columns, scene) * wanted().length * numberOf(repeats);
+  });
+  const size = (): string => {
+    const count = `${draft().kind === 'place' ? 'At most ' : ''}${counted(trials(), 'trial')}`;
+    const each_s = trial_s();
+    return each_s === undefined
+      ? `${count}.`
+      : `${count}: about ${roughly(trials() * each_s)} at the speed of the last map.`;
+  };
   const start = async (): Promise<void> => {
     const [tick, map] = [lab.state()?.tick, lab.scene()?.map];
     if (tick === undefined || map === undefined) return;
@@ -94,6 +110,11 @@ export function RecoveryStart(props: {
         <NumberField {...edits('seed')} label="Noise seed" min={0} isWhole />
       </div>
       <CheckField {...field} verb="Try" />
+      <Show when={trials() > 0}>
+        <p class="hint" data-testid="recovery-size">
+          {size()}
+        </p>
+      </Show>
     </Form>
   );
 }

@@ -1,5 +1,6 @@
 // What the cells of a recovery map say. Pure.
 
+import type { Vec2 } from '../../lab/geometry';
 import type { RecoveryCell, RecoveryReport, RecoveryTrial } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
 
@@ -95,6 +96,12 @@ export function cellAt(
   };
   return report.cells.find(has)?.cell;
 }
+
+/** Whether a recovery map was made for the present goal. */
+export const isForGoal = (
+  { goal_m }: Pick<RecoveryReport, 'goal_m'>,
+  goal: Vec2 | undefined,
+): boolean => goal_m?.[0] === goal?.[0] && goal_m?.[1] === goal?.[1];
 
 /** A length for a drawing, in thousandths of a metre. */
 export const mm = (length_m: number): number => length_m * MM_PER_M;

@@ -9,6 +9,7 @@ import {
   spotWords,
   squareCentimetres,
 } from './cells';
+import { cellsMost, trialSeconds } from './size';
 import { drawingOf, nextShape } from './shapes';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.3, y_min_m: -0.5, y_max_m: -0.2 };
@@ -103,4 +104,30 @@ it('draws rings of directions and rows of durations', () => {
   const { shapes, box } = drawingOf(report('blind', losses), 'rl', WORKSPACE);
   expect(shapes[1]?.middle[0]).toBeGreaterThan(shapes[0]?.middle[0] ?? Infinity);
   expect(box[2]).toBeGreaterThan(box[3]);
+});
+
+it('knows before the start how many cells there are at most', () => {
+  const scene = { workspace: { x_min_m: 0, x_max_m: 0.6, y_min_m: 0, y_max_m: 0.3 }, walls: [] };
+  const exterior: [number, number][] = [
+    [0, 0],
+    [0.3, 0],
+    [0.3, 0.3],
+    [0, 0.3],
+  ];
+  const half = { ...scene, walls: [{ exterior, holes: [] }] };
+  expect(cellsMost('place', 24, scene)).toBe(24 * 12);
+  expect(cellsMost('place', 24, half)).toBe(12 * 12);
+  expect(cellsMost('push', 24, half)).toBe(24 * 6);
+  expect(cellsMost('blind', 4, half)).toBe(4 * 4);
+});
+
+it('measures a trial only while the map runs', () => {
+  const at = (done: number, at_ms: number, stage: RecoveryReport['stage'] = 'running') => ({
+    ...{ id: 'recovery-1', done, at_ms, stage },
+  });
+  expect(trialSeconds(at(10, 0), at(30, 5000))).toBe(0.25);
+  expect(trialSeconds(at(0, 0, 'waiting'), at(30, 5000))).toBeUndefined();
+  expect(trialSeconds(at(10, 0), at(30, 5000, 'done'))).toBeUndefined();
+  expect(trialSeconds(at(10, 0), at(10, 5000))).toBeUndefined();
+  expect(trialSeconds({ ...at(10, 0), id: 'recovery-0' }, at(30, 5000))).toBeUndefined();
 });

@@ -1,12 +1,15 @@
 // The recovery map of places on the plan: the controller that was looked at last, or the difference that is shown.
 
 import { createEffect, createMemo, on } from 'solid-js';
-import type { Session, Trial } from '../../lab/slices';
+import type { Vec2 } from '../../lab/geometry';
+import type { Lab, Panels, Session, Trial } from '../../lab/slices';
+import { GOAL_RADIUS_M, type RecoveryReport } from '../../net/protocol.gen';
 import type { LayerContext, MapLayer } from '../../plan/layer';
-import { strokeCased } from '../../plan/marks';
+import { drawText, strokeCased } from '../../plan/marks';
+import { circle } from '../../plan/shapes';
 import type { Ctx } from '../../plan/sheet';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { cellAt, type Look, looksOf, rowsOf } from './cells';
+import { cellAt, isForGoal, type Look, looksOf, rowsOf } from './cells';
 import * as store from './store';
 import type { Palette } from '../../ui/palette';
 
@@ -22,6 +25,7 @@ interface Square {
   readonly size_m: number;
   readonly look: Look;
   readonly isDropped: boolean;
+  readonly isChosen: boolean;
 }
 
 /** Ground and lines of a cell's pattern; plain without lines. */
@@ -69,7 +73,7 @@ function patternOf(ctx: Ctx, palette: Palette, kind: Look['kind']): CanvasPatter
 
 function draw(ctx: Ctx, view: View, palette: Palette, squares: readonly Square[]): void {
   const fills = new Map<Look['kind'], CanvasPattern | string>();
-  for (const { x_m, y_m, size_m, look, isDropped } of squares) {
+  for (const { x_m, y_m, size_m, look, isDropped, isChosen } of squares) {
     const fill = fills.get(look.kind) ?? patternOf(ctx, palette, look.kind);
     fills.set(look.kind, fill);
     const [left, top] = pxFromWorld(view, [x_m - size_m / 2, y_m + size_m / 2]);
@@ -82,7 +86,31 @@ function draw(ctx: Ctx, view: View, palette: Palette, squares: readonly Square[]
     ctx.fill();
     ctx.globalAlpha = 1;
     if (isDropped) strokeCased(ctx, palette, { colour: palette['m-you'], width_px: 2.6 });
+    if (isChosen) strokeCased(ctx, palette, { colour: palette['bead-edge'], width_px: 2.6 });
   }
+}
+
+/** The recovery map that is on the map. */
+function reportOn(lab: Pick<Trial, 'scene'>): RecoveryReport | undefined {
+  const report = store.report();
+  return report?.kind === 'place' && report.map === lab.scene()?.map ? report : undefined;
+}
+
+/** For another goal it would be taken for a result of the present one. */
+function unavailable(lab: Lab): string | undefined {
+  const report = reportOn(lab);
+  if (!report || lab.panel() === 'recovery' || isForGoal(report, lab.goal())) return undefined;
+  return 'Made for another goal. The tab Recovery shows it.';
+}
+
+/** Where the bead should go, if that is not the present goal. */
+function drawItsGoal(ctx: Ctx, view: View, palette: Palette, goal_m: Vec2): void {
+  const [x, y] = pxFromWorld(view, goal_m);
+  const radius = GOAL_RADIUS_M * view.pxPerM;
+  circle(ctx, [x, y], radius);
+  strokeCased(ctx, palette, { colour: palette['m-goal'], width_px: 2.6, dash: [5, 5] });
+  const { isTurned } = view;
+  drawText(ctx, palette, 'earlier goal', [x, y], { align: 'center', isTurned });
 }
 
 export const RECOVERY_LAYER: MapLayer = {
@@ -91,7 +119,8 @@ export const RECOVERY_LAYER: MapLayer = {
   swatch: ['delivered', 'late', 'lost'],
   group: 'Motion',
   shownAtFirst: true,
-  create: ({ lab }: LayerContext<Session & Trial>) => {
+  unavailable,
+  create: ({ lab }: LayerContext<Session & Trial & Panels>) => {
     // Where the hand lets the bead go, whichever tab is open.
     createEffect(
       on(
@@ -110,18 +139,18 @@ export const RECOVERY_LAYER: MapLayer = {
       ),
     );
     const squares = createMemo((): readonly Square[] => {
-      const report = store.report();
-      if (report?.kind !== 'place' || report.map !== lab.scene()?.map) return [];
-      const front = Math.max(0, report.names.indexOf(store.chosen()?.name ?? ''));
-      const pair = store.pair() ?? [front];
+      const report = reportOn(lab);
+      if (!report) return [];
+      const pair = store.shownOf(report);
       const looks = looksOf(report, pair);
       const at = store.dropped();
       const dropped = at && cellAt(report, at);
+      const chosen = lab.panel() === 'recovery' ? store.chosen()?.cell : undefined;
       return rowsOf(report, report.names[pair[0]] ?? '').flatMap((row) => {
         const look = looks.get(row.cell);
         const { x_m, y_m, size_m, cell } = row;
         if (!look || x_m === null || y_m === null || size_m === null) return [];
-        return [{ x_m, y_m, size_m, look, isDropped: cell === dropped }];
+        return [{ x_m, y_m, size_m, look, isDropped: cell === dropped, isChosen: cell === chosen }];
       });
     });
     return {
@@ -131,6 +160,29 @@ export const RECOVERY_LAYER: MapLayer = {
         return (ctx, { view, palette }) => {
           draw(ctx, view, palette, now);
         };
+      },
+      aboveWalls: () => {
+        const report = reportOn(lab);
+        const goal_m = report?.goal_m;
+        if (!goal_m || isForGoal(report, lab.goal())) return undefined;
+        return (ctx, { view, palette }) => {
+          drawItsGoal(ctx, view, palette, goal_m);
+        };
+      },
+      press: () => {
+        const report = lab.panel() === 'recovery' ? reportOn(lab) : undefined;
+        return (
+          report && {
+            words: 'a cell to see its trials',
+            at: (place) => {
+              const cell = cellAt(report, place);
+              if (cell === undefined) return undefined;
+              return () => {
+                store.setChosen({ cell, name: report.names[store.shownOf(report)[0]] ?? '' });
+              };
+            },
+          }
+        );
       },
     };
   },
