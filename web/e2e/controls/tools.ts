@@ -174,7 +174,7 @@ export const PLOTS: Section = {
     'checkbox y': box,
     'checkbox Error x': box,
     'checkbox Error y': box,
-    'checkbox Distance e': box,
+    'checkbox Distance e, true': box,
     'combobox Time window of the plots': { see: valueOf },
     'button Save CSV': { see: downloads },
     'button Save PNG': { see: downloads },

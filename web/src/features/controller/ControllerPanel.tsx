@@ -8,7 +8,7 @@ import {
   controllerLabel,
   policyName,
 } from '../../lab/parameters';
-import type { Panels, Session, Trial } from '../../lab/slices';
+import type { Events, Panels, Session, Trial } from '../../lab/slices';
 import type { StateMessage } from '../../net/protocol.gen';
 import { Glyph } from '../../ui/Glyph';
 import { troubleWords } from '../../words/facts';
@@ -35,7 +35,7 @@ function About(props: { state: StateMessage; policy: string }): JSX.Element {
 
 /** The children show details of the active controller. */
 export function ControllerPanel(props: {
-  lab: Session & Trial & Panels;
+  lab: Session & Trial & Events & Panels;
   children: JSX.Element;
 }): JSX.Element {
   const { lab } = props;

@@ -5,8 +5,9 @@ import { ChevronRight, Magnet, Route } from 'lucide';
 import { centimetres, fixed, newtons } from '../../ui/format';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { Parameters, SceneMessage, StateMessage } from '../../net/protocol.gen';
-import type { Panels } from '../../lab/slices';
+import type { Events, Panels, Trial } from '../../lab/slices';
 import { TERMS } from '../../lab/terms';
+import { isUnseen, trackedWords } from '../../lab/tracked';
 import { holdWords, reasonWords } from '../../words/facts';
 import { sentence } from '../../lab/eventStory';
 import { Fact } from '../../ui/Fact';
@@ -21,6 +22,7 @@ const LIFT_ALARM = 0.97;
 interface Props {
   readonly state: StateMessage;
   readonly scene: SceneMessage;
+  readonly lab: Trial & Events & Panels;
 }
 
 function ruleText(parameters: Parameters): string {
@@ -31,7 +33,11 @@ function ruleText(parameters: Parameters): string {
 }
 
 /** Where e is between 0, T and the end of the scale, with the limit that matters to the active sub-controller. */
-function Bar(props: { state: StateMessage; parameters: Parameters }): JSX.Element {
+function Bar(props: {
+  state: StateMessage;
+  parameters: Parameters;
+  isUnseen: boolean;
+}): JSX.Element {
   const share = (value_m: number): number => 100 * Math.min(1, Math.max(0, value_m / FULL_M));
   const threshold = (): number => share(props.parameters.threshold_m);
   const fetched_m = (): number =>
@@ -47,14 +53,18 @@ function Bar(props: { state: StateMessage; parameters: Parameters }): JSX.Elemen
   });
   return (
     <div class="hold-bar">
-      <span class="number apart" style={at(props.state.tracked_error_m)}>
-        {centimetres(props.state.tracked_error_m)} apart
-      </span>
+      <Show when={!props.isUnseen} fallback={<span class="apart">not seen yet</span>}>
+        <span class="number apart" style={at(props.state.tracked_error_m)}>
+          {centimetres(props.state.tracked_error_m)} apart
+        </span>
+      </Show>
       <div class="hold-scale">
         <i class="held" style={{ width: `${threshold()}%` }} />
         <i class="limit" data-limit="fetched" style={at(fetched_m())} />
         <i class="limit" data-limit="threshold" style={at(props.parameters.threshold_m)} />
-        <i class="now" style={at(props.state.tracked_error_m)} />
+        <Show when={!props.isUnseen}>
+          <i class="now" style={at(props.state.tracked_error_m)} />
+        </Show>
       </div>
       <span class="number limit-words" style={at(limit_m())}>
         {centimetres(limit_m())}: {isFetching() ? 'fetched' : 'lost'}
@@ -108,7 +118,7 @@ function captureText(capture_m: SceneMessage['capture_m']): string {
   return reaches.length < capture_m.length ? `${text}, some directions` : text;
 }
 
-function MagnetAndBead(props: Props & { lab: Panels }): JSX.Element {
+function MagnetAndBead(props: Props): JSX.Element {
   return (
     <section>
       <header>
@@ -135,9 +145,9 @@ function MagnetAndBead(props: Props & { lab: Panels }): JSX.Element {
           alarm={props.state.lift_ratio > LIFT_ALARM}
         />
         <Fact
-          name="Distance e"
-          help="Between the tool and the tracked bead"
-          value={centimetres(props.state.tracked_error_m)}
+          name="Distance e, tracked"
+          help="Between the tool and the place where the tracker sees the bead"
+          value={trackedWords(props.lab)}
         />
         <Fact name="Threshold T" value={centimetres(props.scene.parameters.threshold_m)} />
       </dl>
@@ -145,7 +155,7 @@ function MagnetAndBead(props: Props & { lab: Panels }): JSX.Element {
   );
 }
 
-export function SwitchingLaw(props: Props & { lab: Panels }): JSX.Element {
+export function SwitchingLaw(props: Props): JSX.Element {
   return (
     <>
       <section class="switching">
@@ -153,10 +163,18 @@ export function SwitchingLaw(props: Props & { lab: Panels }): JSX.Element {
           <h3>Does the magnet hold the bead?</h3>
           <span class="number pull">pull {newtons(props.state.pull_n)}</span>
         </header>
-        <Bar state={props.state} parameters={props.scene.parameters} />
+        <Bar
+          state={props.state}
+          parameters={props.scene.parameters}
+          isUnseen={isUnseen(props.lab)}
+        />
         <SubControllers state={props.state} />
         <div class="reasons">
-          <p data-testid="reason">{sentence(reasonWords(props.state.reason))}</p>
+          <p data-testid="reason">
+            {isUnseen(props.lab)
+              ? 'The bead was moved while paused. The tracker sees it again at Run.'
+              : sentence(reasonWords(props.state.reason))}
+          </p>
           <Show when={props.state.refusal}>
             {(refusal) => <p class="refusal">Holding: {holdWords(refusal())}</p>}
           </Show>

@@ -2,7 +2,7 @@
 
 import { ArrowLeft } from 'lucide';
 import { For, Match, Show, Switch, createEffect, on, type JSX } from 'solid-js';
-import type { Session, Trial } from '../../lab/slices';
+import type { Events, Session, Trial } from '../../lab/slices';
 import { Fact } from '../../ui/Fact';
 import { Icon } from '../../ui/Icon';
 import type { Lesson } from './lesson';
@@ -76,7 +76,7 @@ function Explain(props: Props): JSX.Element {
   );
 }
 
-export function LessonView(props: Props & { lab: Session & Trial }): JSX.Element {
+export function LessonView(props: Props & { lab: Session & Trial & Events }): JSX.Element {
   const { lab, store, lesson } = props;
   let heading!: HTMLHeadingElement;
   const chosen = (): string => store.progress().choices[lesson.id] ?? '';

@@ -3,17 +3,18 @@
 import { Check, Lightbulb } from 'lucide';
 import { For, Show, type JSX } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
-import type { Session, Trial } from '../../lab/slices';
+import type { Events, Session, Trial } from '../../lab/slices';
+import { trackedWords } from '../../lab/tracked';
 import { isActive, stageSentence, updateWords } from '../../lab/trainingStage';
 import type { TrainingSummary } from '../../net/protocol.gen';
-import { centimetres, fixed } from '../../ui/format';
+import { fixed } from '../../ui/format';
 import { Icon } from '../../ui/Icon';
 import '../../ui/Fact.css';
 import { isTraining, type Run, type Task, tasksOf, type TrainingRun } from './lesson';
 import type { Lessons } from './store';
 
 interface Props<R> {
-  readonly lab: Session & Trial;
+  readonly lab: Session & Trial & Events;
   readonly store: Lessons;
   readonly run: R;
   readonly prediction: string | undefined;
@@ -22,14 +23,14 @@ interface Props<R> {
 }
 
 /** What the instructions ask to look at. */
-function Readings(props: { lab: Trial }): JSX.Element {
+function Readings(props: { lab: Trial & Events }): JSX.Element {
   return (
     <Show when={props.lab.state()}>
       {(state) => (
         <dl class="facts">
           <div>
-            <dt>Distance e</dt>
-            <dd class="number">{centimetres(state().tracked_error_m)}</dd>
+            <dt>Distance e, tracked</dt>
+            <dd class="number">{trackedWords(props.lab)}</dd>
           </div>
           <div>
             <dt>Lift / weight</dt>

@@ -26,7 +26,7 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
       layers: ['capture', 'trail'],
       words: [
         'Set it up loads an empty table with the goal 30 cm to the right, and switches on the layer Capture: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
-        'Press Run and look at e below: the distance between tool and bead, as the tracker measures it. Its noise is 1 or 2 mm.',
+        'Press Run and look at e below: the distance between the tool and the tracked bead. The tracker’s noise is 1 or 2 mm.',
       ],
       tasks: [
         { text: 'The bead is carried for 10 cm', done: (track) => track.travelled_m > 0.1 },

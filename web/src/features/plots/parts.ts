@@ -65,7 +65,7 @@ export const PARTS: readonly Part[] = [
   {
     ...ERROR,
     letter: 'e',
-    title: 'Distance e',
+    title: 'Distance e, true',
     threshold: true,
     lines: [{ column: 'error_m', label: 'e', color: 'ink' }],
   },
