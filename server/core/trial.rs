@@ -128,6 +128,8 @@ pub struct Trial {
     /// Of the walls' contractions.
     wall_seed: u64,
     state: TrialState,
+    /// Control steps before this count toward no limit; see [`Self::renew_steps`].
+    free_steps: u32,
     /// Inputs since the last tick, for the log.
     inputs: Vec<Input>,
     events: Vec<Event>,
@@ -149,7 +151,8 @@ impl Trial {
         let plant = Plant::new(scenario.parameters.plant());
         let state = TrialState::at_start(&scenario, arena.map.workspace(), tool_m, positioner);
         let wall_seed = Stream::Walls.rng(scenario.seed).next_u64();
-        let mut trial = Self { arena, plant, wall_seed, state, inputs: Vec::new(), events: Vec::new(), scenario };
+        let (inputs, events, free_steps) = (Vec::new(), Vec::new(), 0);
+        let mut trial = Self { arena, plant, wall_seed, state, free_steps, inputs, events, scenario };
         if let Some(goal) = trial.scenario.goal_m {
             trial.apply(Input::SetGoal { x_m: goal.x, y_m: goal.y })?;
             // Part of the scenario, not of the log.
@@ -184,6 +187,7 @@ impl Trial {
     pub fn restore(&mut self, state: TrialState) {
         self.plant = Plant::new(state.world.parameters.plant());
         self.state = state;
+        self.free_steps = 0;
         self.inputs.clear();
         self.events.clear();
     }

@@ -109,7 +109,7 @@ pub struct ComparisonMessage {
     /// Tick at which branches end at the latest.
     #[ts(type = "number")]
     pub until_tick: u64,
-    /// Sub-controller 2 at that moment; its branch repeats the session.
+    /// Sub-controller 2 at that moment; its branch repeats the session, and goes on where that ran out of steps.
     pub controller: ControllerName,
     /// Ticks between two samples.
     #[ts(type = "number")]

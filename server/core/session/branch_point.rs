@@ -82,10 +82,10 @@ impl BranchPoint {
         Ok((before, trial.tick(Source::Camera(camera))?))
     }
 
-    /// Continues from here under a controller, with the disturbances of hand and script at their ticks, until all goals
-    /// are delivered or until [`Self::until_tick`]. `advance` makes each tick; `watch` is called after it and may stop
-    /// the branch. Inputs that select controllers, and answers of a program, are omitted; inputs that are impossible in
-    /// the branch are skipped.
+    /// Continues from here under a controller, with all steps of a leg and a goal, and with the disturbances of hand and
+    /// script at their ticks, until all goals are delivered or until [`Self::until_tick`]. `advance` makes each tick;
+    /// `watch` is called after it and may stop the branch. Inputs that select controllers, and answers of a program, are
+    /// omitted; inputs that are impossible in the branch are skipped.
     ///
     /// # Errors
     /// Those of `advance`, and [`TrialError`].
@@ -96,6 +96,7 @@ impl BranchPoint {
         watch: &mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
     ) -> Result<(), Error> {
         let mut trial = self.origin.trial()?;
+        trial.renew_steps();
         if controller != self.controller() {
             trial.apply(Input::SelectController(controller)).map_err(TrialError::from)?;
         }

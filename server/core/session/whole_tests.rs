@@ -11,8 +11,11 @@ use crate::control::switching::Mode;
 use crate::control::transport::program::Answer;
 use crate::geometry::Point2;
 use crate::image::EmptyFloor;
-use crate::scenario::{ControllerName, Scenario};
-use crate::trial::{Arena, Catalog, ControlQuery, Event, Input, InputLog, Nowhere, Source, TrialError};
+use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
+use crate::trial::{
+    Arena, Catalog, ControlQuery, Event, Input, InputLog, Nowhere, Phase, Source, StopReason, TickRecord, Trial,
+    TrialError,
+};
 
 const TICK: Duration = Duration::from_millis(8);
 
@@ -145,6 +148,58 @@ fn goal_drag_rewind_compare_and_return() {
     let again = Bench::new(Scenario::idle("posts", 1), Opening::Saved(Saved::of(log)));
     assert_eq!(again.session.view().world_hash, delivered.world_hash);
     assert!(again.said("the session goes on"), "{:?}", again.events);
+}
+
+/// All ticks of a branch of the attractor from the session's present moment.
+fn branch(bench: &Bench) -> Vec<TickRecord> {
+    let point = bench.session.recall(bench.session.view().moment.tick, Recalled::Present).unwrap();
+    let (mut camera, mut records) = (EmptyFloor::default(), Vec::new());
+    let mut advance = |trial: &mut Trial| trial.tick(Source::Camera(&mut camera));
+    let mut watch = |progress: super::Progress<'_>| {
+        records.push(progress.record.clone());
+        ControlFlow::Continue(())
+    };
+    point.branch::<TrialError>(ControllerName::Attractor, &mut advance, &mut watch).unwrap();
+    records
+}
+
+#[test]
+fn a_branch_has_all_its_steps_and_the_rest_of_the_script() {
+    let limit = 10;
+    let kick_at =
+        |step| Scripted { at: When::Step(step), disturbance: Disturbance::Impulse { x_n_s: 1e-7, y_n_s: 0.0 } };
+    let scenario = Scenario {
+        start_m: Some(Point2::new(0.0, -0.35)),
+        controller: ControllerName::Attractor,
+        parameters: Parameters { step_limit: limit, ..Parameters::default() },
+        script: vec![kick_at(3), kick_at(limit + 5)],
+        ..Scenario::idle("open", 1)
+    };
+    let mut bench = Bench::new(scenario, Opening::Fresh);
+    bench.input(goal(0.2));
+    bench.send(Command::Run).unwrap();
+    let late = bench.run_until("some steps", |view| view.moment.counters.leg_steps == 6).moment;
+    let from_late = branch(&bench);
+    let out_of_steps = Phase::Stopped(StopReason::LegSteps { limit });
+    let mut before = (0, 0);
+    let stopped = bench.run_until("the last step", |view| {
+        let is_stopped = view.moment.phase == out_of_steps;
+        if !is_stopped {
+            before = (view.moment.tick, view.world_hash);
+        }
+        is_stopped
+    });
+    assert_eq!((stopped.moment.counters.steps, stopped.moment.counters.disturbances), (limit, 1));
+    // The branch repeats the session, goes on where that stopped, and meets what is left of the script.
+    assert!(from_late.iter().any(|record| (record.tick, record.world.total()) == before), "{before:?}");
+    let end = &from_late.last().unwrap().moment;
+    assert_eq!(
+        (end.phase, end.counters.steps, end.counters.disturbances),
+        (out_of_steps, late.counters.steps + limit, 2)
+    );
+    // It also goes on from where no step is left.
+    let end = branch(&bench).last().unwrap().moment.clone();
+    assert_eq!((end.phase, end.counters.disturbances), (Phase::Delivered, 2));
 }
 
 /// The question that was asked last.

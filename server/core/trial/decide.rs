@@ -312,10 +312,12 @@ impl Trial {
         if is_transport && *refusal == Some(Refusal::WalledOff) {
             return self.stop(StopReason::WalledOff);
         }
-        if is_transport && counters.leg_steps >= limit {
+        // All steps count toward goal and leg, or their counters begin again.
+        let counted = counters.steps - self.free_steps;
+        if is_transport && counters.leg_steps.min(counted) >= limit {
             return self.stop(StopReason::LegSteps { limit });
         }
-        if counters.goal_steps >= goal_limit {
+        if counters.goal_steps.min(counted) >= goal_limit {
             return self.stop(StopReason::GoalSteps { limit: goal_limit });
         }
         counters.steps += 1;

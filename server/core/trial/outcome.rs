@@ -1,6 +1,6 @@
 //! Progress of the task, and when it ends.
 
-use super::{Event, Happening, Motion, Phase, SETTLE_S, StopReason, Trial};
+use super::{Event, Happening, Motion, Phase, SETTLE_S, StopReason, Trial, World};
 use crate::control::Refusal;
 use crate::control::switching::Mode;
 use crate::facts::Told;
@@ -61,6 +61,19 @@ impl Trial {
         world.phase = Phase::Stopped(reason);
         world.motion = Motion::Hold;
         self.events.push(Event::new(world.tick, Happening::Stopped { phase: Told::of(&world.phase) }));
+    }
+
+    /// From now on, leg and goal have all their steps again, also if they ran out. The counters go on, because scripts
+    /// refer to them.
+    pub(crate) fn renew_steps(&mut self) {
+        let World { counters, phase, .. } = &mut self.state.world;
+        self.free_steps = counters.steps;
+        counters.held_steps = 0;
+        if let Phase::Stopped(StopReason::LegSteps { .. } | StopReason::GoalSteps { .. } | StopReason::TrackerLost) =
+            phase
+        {
+            *phase = Phase::Transporting;
+        }
     }
 
     /// Begins a new leg, because the goal moved or the bead was fetched.

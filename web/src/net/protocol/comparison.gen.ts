@@ -70,7 +70,7 @@ sim_time_s: number,
  */
 until_tick: number, 
 /**
- * Sub-controller 2 at that moment; its branch repeats the session.
+ * Sub-controller 2 at that moment; its branch repeats the session, and goes on where that ran out of steps.
  */
 controller: ControllerName, 
 /**
