@@ -1,7 +1,7 @@
 // Rows of the control table: the tabs at the foot of a phone, and what has no tab.
 
 import type { Lab } from '../support/lab';
-import { type Row, type Section, isPressed, toggle } from './row';
+import { type Row, type Section, expanded, isPressed, toggle } from './row';
 
 const foot = (lab: Lab) => lab.page.getByRole('navigation', { name: 'Panels' });
 const sheet = async (lab: Lab) => {
@@ -37,6 +37,7 @@ export const PHONE: Section = {
       ]),
     ),
     'button Step ¼ s': { see: (lab) => lab.state.tick, ready: openMore },
+    'button Whole height': toggle(expanded, openSheet),
     'button 3-D': toggle(isPressed),
   },
 };

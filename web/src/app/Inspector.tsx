@@ -5,7 +5,9 @@ import { Dynamic } from 'solid-js/web';
 import type { Lab } from '../lab/slices';
 import { CloseButton } from '../ui/CloseButton';
 import { Segmented } from '../ui/Segmented';
+import { isPhone } from '../ui/windowSize';
 import { inspectorWidth } from './inspectorWidth';
+import { createSheet } from './sheet';
 import { EXTRA_PANELS, type PageParts, type Tab, tabOf, TABS } from './panels';
 import './Inspector.css';
 
@@ -55,6 +57,7 @@ export function Inspector(props: {
 }): JSX.Element {
   const { lab } = props;
   let root!: HTMLElement;
+  const sheet = createSheet(() => lab.panel() === 'setup', lab.closePanel);
   const panel = createMemo(() => lab.panel());
   const tab = createMemo(() => {
     const name = panel();
@@ -64,8 +67,18 @@ export function Inspector(props: {
   const shown = createMemo(() => extra() ?? tab()?.panels.find(({ name }) => name === panel()));
   return (
     <Show when={panel() !== undefined}>
-      <aside ref={root} class="inspector" aria-label="Inspector">
+      <aside
+        ref={root}
+        class="inspector"
+        classList={{ tall: isPhone() && sheet.isTall() }}
+        aria-label="Inspector"
+      >
         <div class="inspector-edge" title="Drag to resize" {...inspectorWidth(() => root)} />
+        <Show when={isPhone()}>
+          <button type="button" class="sheet-handle" {...sheet.handle}>
+            <span class="visually-hidden">Whole height</span>
+          </button>
+        </Show>
         <Switch>
           <Match when={extra()}>
             {(one) => (

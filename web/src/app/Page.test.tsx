@@ -268,7 +268,30 @@ it('has a panel as a sheet over half of the map on a phone', async () => {
   expect(document.querySelector('.inspector')).toBeNull();
   await button('Story').click();
   await expect.poll(() => heightOf('.inspector')).toBeGreaterThan(200);
-  expect(heightOf('.inspector')).toBeLessThan(0.53 * heightOf('.stage'));
+  const half = 0.53 * heightOf('.stage');
+  expect(heightOf('.inspector')).toBeLessThan(half);
+  const handle = button('Whole height');
+  await userEvent.click(handle);
+  await expect.element(handle).toHaveAttribute('aria-expanded', 'true');
+  await expect.poll(() => heightOf('.inspector')).toBeGreaterThan(0.9 * heightOf('.stage'));
+  const pull = (down_px: number): void => {
+    const { left, top } = handle.element().getBoundingClientRect();
+    const at = (type: string, clientY: number): void => {
+      const event = { bubbles: true, pointerId: 1, clientX: left + 1, clientY };
+      handle.element().dispatchEvent(new PointerEvent(type, event));
+    };
+    handle.element().setPointerCapture = () => undefined;
+    at('pointerdown', top);
+    at('pointerup', top + down_px);
+  };
+  pull(200);
+  await expect.poll(() => heightOf('.inspector')).toBeLessThan(half);
+  pull(-200);
+  await expect.element(handle).toHaveAttribute('aria-expanded', 'true');
+  pull(200);
+  pull(200);
+  await expect.poll(() => document.querySelector('.inspector')).toBeNull();
+  await button('Story').click();
   await button('Steer').click();
   await expect.poll(() => document.querySelector('.inspector')).toBeNull();
   await page.viewport(1280, 800);
