@@ -1,6 +1,15 @@
 // The dock: plots, the time line, and what acts on time: run, who steers, disturb.
 
-import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
+import {
+  Match,
+  Show,
+  Switch,
+  createEffect,
+  createMemo,
+  createSignal,
+  on,
+  type JSX,
+} from 'solid-js';
 import { Activity, Eye, HandGrab, Radio } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
 import { SteeredBy } from '../features/controller/SteeredBy';
@@ -18,6 +27,7 @@ import { Icon } from '../ui/Icon';
 import { isPhone } from '../ui/windowSize';
 import './Dock.css';
 
+const TaskBar = lazyPanel(() => import('../features/lessons/TaskBar'));
 const PlotLanes = lazyPanel(() => import('../features/plots/PlotLanes'));
 
 /** Goes to the newest moment. */
@@ -154,9 +164,16 @@ export function Dock(props: { lab: Lab }): JSX.Element {
       <Show when={!watches()} fallback={<Watching lab={lab} />}>
         <div class="transport">
           <Transport lab={lab} />
-          <Show when={isPhone() && lab.contest.attempt()} fallback={<SteeredBy lab={lab} />}>
-            <StageBar lab={lab} />
-          </Show>
+          <Switch fallback={<SteeredBy lab={lab} />}>
+            <Match when={isPhone() && lab.contest.attempt()}>
+              <StageBar lab={lab} />
+            </Match>
+            <Match when={isPhone() && lab.address.lesson()}>
+              <TaskBar lab={lab}>
+                <SteeredBy lab={lab} />
+              </TaskBar>
+            </Match>
+          </Switch>
           <div class="dock-tools">
             <button
               type="button"

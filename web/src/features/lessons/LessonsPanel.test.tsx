@@ -3,6 +3,7 @@ import { eventAt } from '../../lab/testingFacts';
 import { page } from 'vitest/browser';
 import { fakeLab, show } from '../../lab/testingLab';
 import LessonsPanel from './LessonsPanel';
+import TaskBar from './TaskBar';
 
 const button = (name: string | RegExp) => page.getByRole('button', { name });
 
@@ -42,4 +43,33 @@ it('counts a lesson that was read to its end, whether it is finished or left', a
   await button('Next').click();
   await button('All lessons').click();
   await expect.element(button(/^Meet the magnet.*done/i)).toBeVisible();
+});
+
+it('has the next task for a phone while an experiment of the lesson is on the page', async () => {
+  const { lab, server } = fakeLab();
+  show(() => (
+    <>
+      <TaskBar lab={lab}>Steered by</TaskBar>
+      <LessonsPanel lab={lab} />
+    </>
+  ));
+  await expect.poll(() => lab.state()).toBeDefined();
+  server.lists({ maps: ['posts', 'colon', 'open'] });
+  await expect.element(page.getByText('Steered by')).toBeVisible();
+  await button(/^Meet the magnet/).click();
+  await page.getByRole('radio').first().click();
+  await button('Next').click();
+  await button('Set it up').click();
+  await expect.poll(() => server.command('load_scenario')).toBeDefined();
+  server.load();
+  const bar = button(/press Run or the space bar 0 of 3$/);
+  await bar.click();
+  expect(lab.panel()).toBe('learn');
+  await expect.element(bar).toHaveAttribute('aria-expanded', 'true');
+  server.state({ tick: 1, sim_time_s: 0.008, tool_m: [0, -0.36, 0.1] });
+  await expect.poll(() => lab.state()?.tick).toBe(1);
+  server.state({ tick: 1250, sim_time_s: 10, tool_m: [0.15, -0.36, 0.1] });
+  await expect.element(button(/^Deliver.* 2 of 3$/)).toBeVisible();
+  server.scene({ trial: 7 });
+  await expect.element(page.getByText('Steered by')).toBeVisible();
 });

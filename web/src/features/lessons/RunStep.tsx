@@ -10,7 +10,7 @@ import type { TrainingSummary } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
 import { Icon } from '../../ui/Icon';
 import '../../ui/Fact.css';
-import { isTraining, type Run, type Task, tasksOf, type TrainingRun } from './lesson';
+import { isTraining, type Run, type TrainingRun } from './lesson';
 import type { Lessons } from './store';
 
 interface Props<R> {
@@ -80,14 +80,7 @@ function Prediction(props: { words: string | undefined }): JSX.Element {
 
 function ExperimentStep(props: Props<Run>): JSX.Element {
   const { lab, store, run } = props;
-  const isFollowed = (): boolean => store.track() !== undefined && !store.isElsewhere();
-  const tasks = tasksOf(run);
-  const isDone = (task: Task): boolean => {
-    const track = store.track();
-    return track !== undefined && task.done(track);
-  };
-  const next = (): Task | undefined =>
-    isFollowed() ? tasks.find((one) => !isDone(one)) : undefined;
+  const { isFollowed, isTaskDone: isDone } = store;
   return (
     <>
       <Instructions {...props} to="set up the experiment" />
@@ -116,9 +109,9 @@ function ExperimentStep(props: Props<Run>): JSX.Element {
         </p>
       </Show>
       <ul class="lesson-tasks">
-        <For each={tasks}>
+        <For each={store.tasks()}>
           {(task) => (
-            <li classList={{ done: isDone(task), next: next() === task }}>
+            <li classList={{ done: isDone(task), next: store.nextTask() === task }}>
               <span class="task-mark" aria-hidden="true">
                 <Show when={isDone(task)}>
                   <Icon of={Check} />
@@ -146,7 +139,7 @@ function ExperimentStep(props: Props<Run>): JSX.Element {
             {store.track() ? 'Set it up again' : 'Set it up'}
           </button>
           <span class="number" role="status">
-            {tasks.filter(isDone).length} of {tasks.length} done
+            {store.tasksDone()} of {store.tasks().length} done
           </span>
         </>,
       )}

@@ -7,7 +7,15 @@ import type { Addressed, Events, Layers, Pictures, Session, Trial } from '../../
 import { shareWords } from '../../lab/trainingStage';
 import type { Parameters } from '../../net/protocol.gen';
 import { recall, remember } from '../../ui/storage';
-import { type Fact, isTraining, isTrainingLesson, type Lesson, type Run, tasksOf } from './lesson';
+import {
+  type Fact,
+  isTraining,
+  isTrainingLesson,
+  type Lesson,
+  type Run,
+  type Task,
+  tasksOf,
+} from './lesson';
 import { createLessonTrainings } from './lessonTrainings';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, progressFrom } from './progress';
@@ -54,6 +62,19 @@ function createLessons(lab: LessonsLab) {
     const now = experiment();
     return now && tracks().get(now);
   });
+  const isElsewhere = (): boolean => {
+    const now = track();
+    return now !== undefined && now.trial !== lab.scene()?.trial;
+  };
+  const isFollowed = (): boolean => track() !== undefined && !isElsewhere();
+  const tasks = createMemo((): readonly Task[] => {
+    const now = experiment();
+    return now ? tasksOf(now) : [];
+  });
+  const isTaskDone = (task: Task): boolean => {
+    const now = track();
+    return now !== undefined && task.done(now);
+  };
   /** The scenario of the present run, as the server has set it up. A reset begins it again. */
   const [own, setOwn] = createSignal<string>();
   const scenario = createMemo(() => JSON.stringify(lab.scene()?.scenario));
@@ -124,10 +145,15 @@ function createLessons(lab: LessonsLab) {
     /** The measurements of the present experiment, if it was set up. */
     track,
     /** Whether the page shows an experiment other than the followed one. */
-    isElsewhere: (): boolean => {
-      const now = track();
-      return now !== undefined && now.trial !== lab.scene()?.trial;
-    },
+    isElsewhere,
+    /** Whether the page shows the present experiment, as it was set up. */
+    isFollowed,
+    /** What the present experiment asks for. */
+    tasks,
+    isTaskDone,
+    tasksDone: (): number => tasks().filter(isTaskDone).length,
+    nextTask: (): Task | undefined =>
+      isFollowed() ? tasks().find((one) => !isTaskDone(one)) : undefined,
     /** Whether the user may go to the next step. */
     mayGoOn: (): boolean => {
       const [now, here, measured] = [lesson(), run(), track()];
