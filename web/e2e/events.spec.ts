@@ -115,6 +115,8 @@ test('compares controllers from a moment on', async ({ lab }) => {
     },
     COMPUTED_MS,
   );
+  const onTimeLine = lab.page.locator('.time-row').getByRole('img', { name: /: .+ after / });
+  await expect(onTimeLine, 'the outcomes on the time line').toHaveCount(3);
   expect((await column(0)).join()).toMatch(/^RL,ERRT,Attractor\s*was in use$/);
   // Evaluations have the same definition.
   for (const axis of ['x', 'y']) {

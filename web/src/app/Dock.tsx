@@ -12,6 +12,7 @@ import {
 } from 'solid-js';
 import { Activity, Eye, HandGrab, Radio } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
+import { CompareLine } from '../features/compare/CompareLine';
 import { SteeredBy } from '../features/controller/SteeredBy';
 import { Timeline } from '../features/playback/Timeline';
 import { Transport } from '../features/playback/Transport';
@@ -22,6 +23,7 @@ import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Lab } from '../lab/slices';
 import { takeControl } from '../lab/takeControl';
 import { createTimeAxis, type TimeAxis } from '../lab/timeAxis';
+import type { ComparisonMessage } from '../net/protocol.gen';
 import { clock } from '../ui/format';
 import { Icon } from '../ui/Icon';
 import { isPhone } from '../ui/windowSize';
@@ -54,12 +56,12 @@ function Live(props: { lab: Lab }): JSX.Element {
 }
 
 /** The present time, and the time under a pointer, across all lanes. */
-function Cursors(props: { lab: Lab; axis: TimeAxis }): JSX.Element {
+function Cursors(props: { axis: TimeAxis }): JSX.Element {
   const { axis } = props;
   const left = (time_s: number): string => `${(100 * axis.share(time_s)).toFixed(3)}%`;
   return (
     <div class="cursors" aria-hidden="true">
-      <span class="cursor" style={{ left: left(props.lab.state()?.sim_time_s ?? 0) }} />
+      <span class="cursor" style={{ left: left(axis.now_s()) }} />
       <Show when={axis.pointed_s()}>
         {(time_s) => (
           <span class="cursor pointed number" style={{ left: left(time_s()) }}>
@@ -134,7 +136,10 @@ function Watching(props: { lab: Lab }): JSX.Element {
 
 export function Dock(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
-  const axis = createTimeAxis(lab);
+  /** A phone has no room for it. */
+  const timed = (): ComparisonMessage | undefined =>
+    !isPhone() && lab.panel() === 'compare' ? lab.comparison.shown() : undefined;
+  const axis = createTimeAxis(lab, timed);
   const disturbs = (): boolean => lab.panel() === 'disturb';
   const watches = (): boolean => lab.connection().kind === 'live' && lab.hello()?.role === 'viewer';
   const tick = (): string => `Tick ${lab.state()?.tick ?? 0}`;
@@ -150,14 +155,23 @@ export function Dock(props: { lab: Lab }): JSX.Element {
         <Show when={hasLanes()}>
           <div class="lanes">
             <PlotLanes lab={lab} axis={axis} />
-            <Cursors lab={lab} axis={axis} />
+            <Cursors axis={axis} />
           </div>
         </Show>
         <div class="time-row">
           <span class="sim-time number" data-testid="sim-time" title={tick()}>
-            {clock(lab.state()?.sim_time_s ?? 0)}
+            {clock(axis.now_s())}
           </span>
-          <Timeline lab={lab} axis={axis} />
+          <Show when={timed()} fallback={<Timeline lab={lab} axis={axis} />}>
+            {(comparison) => (
+              <CompareLine
+                lab={lab}
+                comparison={comparison()}
+                axis={axis}
+                tick_s={lab.scene()?.tick_s ?? 0}
+              />
+            )}
+          </Show>
           <Live lab={lab} />
         </div>
       </div>

@@ -1,9 +1,11 @@
 // The axis of the time line and of the plots above it.
 
-import { createMemo, createSignal } from 'solid-js';
+import { createMemo, createSignal, type Accessor } from 'solid-js';
 import { createChoice } from '../ui/storage';
+import type { ComparisonMessage } from '../net/protocol.gen';
+import { lastTick } from './comparison';
 import { hasLanes } from './lanes';
-import type { Contested, Trial } from './slices';
+import type { Compared, Contested, Trial } from './slices';
 
 export const WINDOWS = [
   ['all', 'All'],
@@ -49,7 +51,11 @@ export function shownSpan(
 
 export type TimeAxis = ReturnType<typeof createTimeAxis>;
 
-export function createTimeAxis(lab: Trial & Contested) {
+/** The axis is that of `timed`, the comparison on the time line, if there is one. */
+export function createTimeAxis(
+  lab: Trial & Contested & Compared,
+  timed: Accessor<ComparisonMessage | undefined>,
+) {
   const [choice, choose] = createChoice(
     'window',
     WINDOWS.map(([id]) => id) as [WindowChoice, ...WindowChoice[]],
@@ -62,6 +68,11 @@ export function createTimeAxis(lab: Trial & Contested) {
   const span = createMemo(
     () => {
       const [state, tick_s] = [lab.state(), lab.scene()?.tick_s ?? 0];
+      const compared = timed();
+      if (compared) {
+        const { tick, sim_time_s: from_s } = compared;
+        return { from_s, to_s: from_s + rounded((lastTick(compared) - tick) * tick_s) };
+      }
       const newest_s = Math.max(state?.newest_tick ?? 0, state?.tick ?? 0) * tick_s;
       // The choice is a control of the lanes.
       return shownSpan(
@@ -77,5 +88,8 @@ export function createTimeAxis(lab: Trial & Contested) {
   /** Where a time is on the axis: 0 at its beginning, 1 at its end, also beyond. */
   const share = (time_s: number): number =>
     (time_s - span().from_s) / (span().to_s - span().from_s);
-  return { span, share, choice, choose, pointed_s, point };
+  /** The time that is shown: the present, or that of the ghosts. */
+  const now_s = (): number =>
+    timed() ? lab.comparison.tick() * (lab.scene()?.tick_s ?? 0) : (lab.state()?.sim_time_s ?? 0);
+  return { now_s, span, share, choice, choose, pointed_s, point };
 }

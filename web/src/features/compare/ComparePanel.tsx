@@ -1,9 +1,8 @@
 // The comparison: one moment under several controllers with the same disturbances, and their results.
 
-import { Check, Clock, Ellipsis, GitCompare, type IconNode, Pause, Play, X } from 'lucide';
+import { GitCompare, Pause, Play } from 'lucide';
 import { For, Show, type JSX } from 'solid-js';
 import { centimetres, clock, fixed } from '../../ui/format';
-import { lastTick } from '../../lab/comparison';
 import { controllerLabel } from '../../lab/parameters';
 import type { Branch, ComparisonMessage } from '../../net/protocol.gen';
 import { Badge } from '../../ui/Badge';
@@ -11,12 +10,15 @@ import { Empty } from '../../ui/Empty';
 import { Glyph } from '../../ui/Glyph';
 import { Icon } from '../../ui/Icon';
 import { type Column, Table } from '../../ui/Table';
+import { isPhone } from '../../ui/windowSize';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { PanelProps } from '../../lab/panel';
 import type { ByHand, Compared, Events, Notices, Session, Trial } from '../../lab/slices';
 import { phaseWords } from '../../words/facts';
 import { ComparePlots } from './ComparePlots';
 import { CompareStart } from './CompareStart';
+import { endTick, ending } from './ending';
+import { GhostSlider } from './GhostSlider';
 import './compare.css';
 
 interface Shown {
@@ -24,22 +26,9 @@ interface Shown {
   readonly tick_s: number;
 }
 
-type Ending = readonly [word: string, icon: IconNode, tone: 'good' | 'bad' | 'plain'];
-
-function ending(comparison: ComparisonMessage, branch: Branch): Ending {
-  if (branch.delivered_tick !== null) return ['delivered', Check, 'good'];
-  if (!branch.done) return [comparison.running ? 'running' : 'stopped early', Ellipsis, 'plain'];
-  if (branch.phase?.code === 'lifted_off') return ['lifted off', X, 'bad'];
-  const { phase } = branch;
-  if (phase?.code !== 'stopped') return ['not in time', Clock, 'plain'];
-  return [phase.by.endsWith('_steps') ? 'out of steps' : 'stopped', X, 'bad'];
-}
-
 function Results(props: Shown): JSX.Element {
-  const time_s = ({ delivered_tick, samples }: Branch): number =>
-    (delivered_tick === null
-      ? samples.length * props.comparison.ticks_a_sample
-      : delivered_tick - props.comparison.tick) * props.tick_s;
+  const time_s = (branch: Branch): number =>
+    (endTick(props.comparison, branch) - props.comparison.tick) * props.tick_s;
   const columns: readonly Column<Branch>[] = [
     {
       name: 'Controller',
@@ -169,18 +158,10 @@ function Player(props: Shown & { lab: Compared }): JSX.Element {
       >
         <Icon of={ghosts.playing() ? Pause : Play} />
       </button>
-      <input
-        type="range"
-        aria-label="Time of the ghosts"
-        aria-valuetext={`${fixed(since_s(), 1)} seconds after the moment`}
-        min={props.comparison.tick}
-        max={lastTick(props.comparison)}
-        step={props.comparison.ticks_a_sample}
-        value={ghosts.tick()}
-        onInput={(event) => {
-          ghosts.look(event.currentTarget.valueAsNumber);
-        }}
-      />
+      {/* Otherwise it is on the time line. */}
+      <Show when={isPhone()}>
+        <GhostSlider {...props} />
+      </Show>
       <span class="number">+{fixed(since_s(), 1)} s</span>
     </div>
   );
