@@ -69,13 +69,9 @@ export function push(
   return { drift: { x_n: x * force_n, y_n: y * force_n, for_s } };
 }
 
-export function move(x_m: number, y_m: number): Disturbance {
-  return { displace: { x_m, y_m } };
-}
+export const move = (x_m: number, y_m: number): Disturbance => ({ displace: { x_m, y_m } });
 
-export function blind(for_s: number): Disturbance {
-  return { dropout: { for_s } };
-}
+export const blind = (for_s: number): Disturbance => ({ dropout: { for_s } });
 
 const ARROWS = ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'];
 

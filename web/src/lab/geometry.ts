@@ -12,9 +12,7 @@ export interface TableView {
   readonly toPx: (point: Vec2, height_m?: number) => [number, number] | undefined;
 }
 
-export function distance(a: Vec2, b: Vec2): number {
-  return Math.hypot(a[0] - b[0], a[1] - b[1]);
-}
+export const distance = (a: Vec2, b: Vec2): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
 /** The point at a share of the way from one to another. */
 export function between(from: Vec2, to: Vec2, share: number): [number, number] {

@@ -148,9 +148,7 @@ function boundOf({ bound }: NumberField, parameters: Parameters): number {
 }
 
 /** Digits after the point that `step` needs. */
-export function digits(step: number): number {
-  return Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-}
+export const digits = (step: number): number => Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
 
 /** From the stored unit to the shown one, free of binary dust. */
 export function shownValue(field: NumberField, stored: number): number {

@@ -7,9 +7,7 @@ interface Page {
 
 const CARRIED = '#token=';
 
-export function carriesToken(page: Page): boolean {
-  return page.location.hash.startsWith(CARRIED);
-}
+export const carriesToken = (page: Page): boolean => page.location.hash.startsWith(CARRIED);
 
 /** Returns the token in the page's address and removes it from the address and the history. */
 export function takeToken(page: Page): string | undefined {

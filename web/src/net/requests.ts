@@ -47,14 +47,10 @@ async function request<A>(path: string, init: RequestInit): Promise<A> {
 }
 
 /** Gets JSON from `path`; throws a refusal with the message to show. */
-export function get<A>(path: string): Promise<A> {
-  return request(path, {});
-}
+export const get = <A>(path: string): Promise<A> => request(path, {});
 
 /** Gets text from `path`; throws a refusal with the message to show. */
-export async function getText(path: string): Promise<string> {
-  return (await answered(path, {})).text();
-}
+export const getText = async (path: string): Promise<string> => (await answered(path, {})).text();
 
 /** Posts to `path` and returns the answer; throws a refusal with the message to show. */
 export function post<A>(path: string, body?: string | Blob, type = 'application/json'): Promise<A> {

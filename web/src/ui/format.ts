@@ -8,9 +8,7 @@ export function fixed(value: number, digits: number): string {
 }
 
 /** A label of an axis: with a decimal only if the value is not whole, so that 2.5 does not become 3. */
-export function axisLabel(value: number): string {
-  return fixed(value, Number.isInteger(value) ? 0 : 1);
-}
+export const axisLabel = (value: number): string => fixed(value, Number.isInteger(value) ? 0 : 1);
 
 export function centimetres(value_m: number, digits = 1): string {
   return `${fixed(value_m * 100, digits)} cm`;
@@ -20,9 +18,7 @@ export function millimetres(value_m: number, digits = 0): string {
   return `${fixed(value_m * 1000, digits)} mm`;
 }
 
-export function seconds(time_s: number): string {
-  return `${fixed(time_s, 1)} s`;
-}
+export const seconds = (time_s: number): string => `${fixed(time_s, 1)} s`;
 
 /** Newtons, or millinewtons below 0.1 N. */
 export function newtons(value_n: number): string {

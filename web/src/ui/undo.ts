@@ -9,9 +9,7 @@ export interface Undo<T> {
 /** Older states are forgotten. */
 const MOST = 200;
 
-export function startOf<T>(present: T): Undo<T> {
-  return { past: [], present, future: [] };
-}
+export const startOf = <T>(present: T): Undo<T> => ({ past: [], present, future: [] });
 
 /** Goes on to a new state. The undone ones are dropped. */
 export function onward<T>({ past, present }: Undo<T>, next: T): Undo<T> {

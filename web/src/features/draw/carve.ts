@@ -58,9 +58,7 @@ function areasOf(tree: PolyPathD): Area[] {
   });
 }
 
-function areaMm2(paths: PathsD): number {
-  return Math.abs(Clipper.areaPathsD(paths));
-}
+const areaMm2 = (paths: PathsD): number => Math.abs(Clipper.areaPathsD(paths));
 
 /**
  * The shapes without what is under the eraser, which went along several lines. A shape that it does not touch stays as it

@@ -149,15 +149,11 @@ export function shapeAt(drawing: Drawing, at: Mm, slop_mm: number): number | und
 }
 
 /** Without needless digits: a hundredth of a millimetre. */
-function number(value: number): string {
-  return String(Number(value.toFixed(2)));
-}
+const number = (value: number): string => String(Number(value.toFixed(2)));
 
 const place = ([x, y]: Mm): string => `${number(x)} ${number(y)}`;
 
-function ringText(ring: readonly Mm[]): string {
-  return `M${ring.map(place).join('L')}Z`;
-}
+const ringText = (ring: readonly Mm[]): string => `M${ring.map(place).join('L')}Z`;
 
 /** The `d` of a path that shows a shape: the middle line of a wall, the outline of others. */
 export function pathText(shape: Shape): string {

@@ -48,9 +48,7 @@ export function remaining_s(
 }
 
 /** 3 for `evaluation-3`. */
-export function numberOf(id: string): string {
-  return id.replace(/^evaluation-/, '');
-}
+export const numberOf = (id: string): string => id.replace(/^evaluation-/, '');
 
 const STAGE_WORDS = {
   waiting: 'waits',

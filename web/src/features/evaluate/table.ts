@@ -18,9 +18,7 @@ export const reason = ({ outcome, trouble, refusal }: EvaluationFailure): string
   [outcome, trouble, refusal].filter((why) => why !== null).join('; ');
 
 /** `1.043`, or a dash if no bead was delivered. */
-export function ratio(value: number | null): string {
-  return value === null ? '–' : fixed(value, 3);
-}
+export const ratio = (value: number | null): string => (value === null ? '–' : fixed(value, 3));
 
 /** `−2.5`, `+0.1`: always with a sign. */
 export function signed(value: number, digits: number): string {

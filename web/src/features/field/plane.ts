@@ -69,10 +69,6 @@ export function planeArrows(plane: Plane): Arrow[] {
 export const HALF_SIDE_M = REACH_M + SPACING_M / 2;
 export const SIDE_PX = COUNT;
 
-export function fieldWords(plane: Plane): string {
-  return fixed(1000 * greatestField_t(plane), 2);
-}
+export const fieldWords = (plane: Plane): string => fixed(1000 * greatestField_t(plane), 2);
 
-export function strongestWords(plane: Plane): string {
-  return fixed(1000 * greatestPull_n(plane), 2);
-}
+export const strongestWords = (plane: Plane): string => fixed(1000 * greatestPull_n(plane), 2);

@@ -40,13 +40,9 @@ export function label({ id, session, started }: RecordingFile): string {
 /** Rerun's file for the viewer, and the input log for `ferry replay`. */
 export type Ending = 'rrd' | 'ferry';
 
-function recordingPath(id: string): string {
-  return `/api/recordings/${encodeURIComponent(id)}`;
-}
+const recordingPath = (id: string): string => `/api/recordings/${encodeURIComponent(id)}`;
 
-export function filePath(id: string, ending: Ending): string {
-  return `${recordingPath(id)}.${ending}`;
-}
+export const filePath = (id: string, ending: Ending): string => `${recordingPath(id)}.${ending}`;
 
 /** The list, read again when the page is shown, and while `moved` changes, which is what the session records. */
 export function createRecordings(moved: Accessor<unknown>) {

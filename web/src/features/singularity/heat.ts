@@ -79,9 +79,7 @@ export function refusedRuns(map: WorkspaceMap): Run[] {
 }
 
 /** In 10⁻³ m³. */
-export function heatWords(value_m3: number): string {
-  return fixed(value_m3 * 1000, 1);
-}
+export const heatWords = (value_m3: number): string => fixed(value_m3 * 1000, 1);
 
 /** Share of the refused cells as text. */
 export function refusedWords(map: WorkspaceMap): string {

@@ -56,9 +56,7 @@ function ring(path: Path2D, [x, y]: Vec2, radius: number): void {
 }
 
 /** A cross for a wall, a ring for too many steps. */
-function markOf(ending: EpisodeEnding): typeof cross {
-  return ending === 'collided' ? cross : ring;
-}
+const markOf = (ending: EpisodeEnding): typeof cross => (ending === 'collided' ? cross : ring);
 
 function drawStarts(ctx: Ctx, base: Base, cells: TrainingCells, frame: TrainingFrame): void {
   const { view, palette } = base;

@@ -57,6 +57,4 @@ export function percentAlong({ from, to }: Axis, value: number): number {
 }
 
 /** Index of the greatest value; the first one wins a tie. */
-export function bestOf(values: readonly number[]): number {
-  return values.indexOf(Math.max(...values));
-}
+export const bestOf = (values: readonly number[]): number => values.indexOf(Math.max(...values));
