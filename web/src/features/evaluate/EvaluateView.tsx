@@ -1,8 +1,8 @@
 // The view Evaluate: the results on the stage, a new evaluation and the earlier ones in the inspector.
 
 import { Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { Empty } from '../../ui/Empty';
 import { ForKeyed } from '../../ui/ForKeyed';
-import { Icon } from '../../ui/Icon';
 import { ChartColumn } from 'lucide';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
@@ -48,13 +48,11 @@ export default function EvaluateView(props: { lab: Addressed & Session & Trial }
         <Show
           when={shown()}
           fallback={
-            <p class="empty">
-              <Icon of={ChartColumn} />
-              <b>How many of many trials succeed?</b>
+            <Empty icon={ChartColumn} question="How many of many trials succeed?">
               An evaluation counts it for random trials, as in the paper. Choose controllers and
               maps, then press Run. It runs in the background and does not slow down the live
               session.
-            </p>
+            </Empty>
           }
         >
           {(summary) => <EvaluationPanel lab={props.lab} summary={summary()} />}

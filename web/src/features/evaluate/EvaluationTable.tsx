@@ -5,8 +5,8 @@ import { controllerLabel } from '../../lab/parameters';
 import { isActive } from '../../lab/trainingStage';
 import type { EvaluationCell, EvaluationSummary, PaperRow, Row } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
+import { Interval } from '../../ui/Interval';
 import { Cells, type Column, Heads } from '../../ui/Table';
-import { IntervalBar } from './IntervalBar';
 import { Named } from './Named';
 import { cm, percentRange, ratio } from './table';
 import { variedWords } from './varied';
@@ -23,7 +23,7 @@ function Share(props: {
         {props.count}/{props.of}
       </b>
       <span class="range-words">{percentRange(props.interval)}</span>
-      <IntervalBar share={props.count / props.of} interval={props.interval} />
+      <Interval share={props.count / props.of} interval={props.interval} />
     </div>
   );
 }

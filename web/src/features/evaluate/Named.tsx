@@ -1,10 +1,8 @@
 // A controller's name with its shape.
 
 import type { JSX } from 'solid-js';
-import { type Controller, LOOKS } from '../../ui/controllers';
+import { isController } from '../../ui/controllers';
 import { Glyph } from '../../ui/Glyph';
-
-const isController = (name: string): name is Controller => name in LOOKS;
 
 /** Programs have names of their own. */
 export function Mark(props: { of: string }): JSX.Element {
