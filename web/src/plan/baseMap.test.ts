@@ -1,7 +1,7 @@
 import { createRoot, createSignal } from 'solid-js';
 import { expect, test, vi } from 'vitest';
 import { sceneOf } from '../lab/testing';
-import { createBaseMap } from './baseMap';
+import { clipped, createBaseMap } from './baseMap';
 import { type BasePicture, type Draw, drawn, type LiveLayer } from './layer';
 import { Sheet } from './sheet';
 import * as colours from '../ui/palette';
@@ -71,6 +71,29 @@ test('the base map changes with map, theme, size and its layers, and with nothin
   setAbove(3);
   setBelow(3);
   expect(changes()).toEqual({ map: false, ground: false });
+});
+
+test('a ring around the tool ends with the frame of the tray, not with the workspace', () => {
+  const roundRect = vi.fn();
+  vi.stubGlobal(
+    'Path2D',
+    class {
+      roundRect = roundRect;
+    },
+  );
+  const clip = vi.fn();
+  const ctx = {
+    save: noDraw,
+    clip,
+    restore: noDraw,
+  } as unknown as CanvasRenderingContext2D;
+  const scene = sceneOf('posts');
+  clipped(noDraw)(ctx, { view: VIEW, palette: colours.palette(), scene, free: new Path2D() });
+  expect(clip).toHaveBeenCalledOnce();
+  const { x_min_m, y_max_m } = scene.workspace;
+  const [left, top] = roundRect.mock.calls[0] as [number, number];
+  expect(left).toBeLessThan(1000 * x_min_m - 5);
+  expect(top).toBeLessThan(-1000 * y_max_m - 5);
 });
 
 test('a sheet is painted again only for another input or another ratio', () => {

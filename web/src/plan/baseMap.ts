@@ -12,8 +12,8 @@ import { drawFloor } from './drawMap';
 import { drawMovedWalls } from './drawMovedWalls';
 import { type BasePicture, type Draw, type LiveLayer, shownParts } from './layer';
 import { Relief } from './relief';
-import { freePath } from './tray';
-import { pxRect, type View } from './transform';
+import { freePath, trayPath } from './tray';
+import type { View } from './transform';
 import type { MovedWalls } from '../lab/movedWalls';
 import type { Trial } from '../lab/slices';
 import type { Ctx } from './sheet';
@@ -37,14 +37,12 @@ export interface BaseMap {
   readonly aboveWalls: readonly Draw<BasePicture>[];
 }
 
-/** Clips to the workspace, because larger pictures would cover the numbers of the axes. */
+/** Clips to the tray: what reaches beyond the workspace ends with its frame. */
 export const clipped =
   <P extends BasePicture>(draw: Draw<P>): Draw<P> =>
   (ctx, picture) => {
     ctx.save();
-    ctx.beginPath();
-    ctx.rect(...pxRect(picture.view, picture.scene.workspace));
-    ctx.clip();
+    ctx.clip(trayPath(picture.scene.workspace, picture.view));
     draw(ctx, picture);
     ctx.restore();
   };

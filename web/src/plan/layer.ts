@@ -88,7 +88,7 @@ export interface MapLayer {
   readonly swatch: readonly [keyof Palette, ...(keyof Palette)[]];
   readonly group: (typeof LAYER_GROUPS)[number];
   readonly shownAtFirst?: true;
-  /** `aboveWalls` may draw outside the workspace. */
+  /** `aboveWalls` may draw outside the tray. */
   readonly isUnclipped?: true;
   /** Shows only what sensors tell, so that it may be drawn over fog. */
   readonly isSensed?: true;
