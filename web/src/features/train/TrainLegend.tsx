@@ -2,6 +2,7 @@
 
 import { For, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
+import '../../ui/legend.css';
 import './legend.css';
 
 export function ValueScale(props: {
@@ -15,7 +16,7 @@ export function ValueScale(props: {
   };
   return (
     <div class="train-scale" role="group" aria-label="Values">
-      <span class="train-ramp" aria-hidden="true" />
+      <span class="heat-ramp train-ramp" aria-hidden="true" />
       <span class="number">{text(0)} far</span>
       <span class="number">{text(0.5)}</span>
       <span class="number">{text(1)} at the goal</span>
