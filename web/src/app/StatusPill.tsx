@@ -2,12 +2,14 @@
 
 import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { Check, Power, TriangleAlert } from 'lucide';
-import type { Session, Trial } from '../lab/slices';
+import { deliveryTime_s } from '../lab/deliveries';
+import type { ByHand, Events, Session, Trial } from '../lab/slices';
 import { createStuck } from '../lab/stuck';
 import { Limiter } from '../net/limiter';
 import { loggedOut } from '../net/access';
 import { Glyph } from '../ui/Glyph';
 import { Icon } from '../ui/Icon';
+import { IS_TOUCH } from '../ui/touch';
 import { isPhone } from '../ui/windowSize';
 import { type Status, statusOf } from './status';
 import './StatusPill.css';
@@ -30,11 +32,18 @@ function Reload(props: { label: string; title: string }): JSX.Element {
   );
 }
 
-export function StatusPill(props: { lab: Session & Trial }): JSX.Element {
+export function StatusPill(props: { lab: Session & Trial & Events & ByHand }): JSX.Element {
   const { lab } = props;
   const isStuck = createStuck(lab);
   const now = createMemo(
-    () => statusOf(lab.connection(), lab.ended(), lab.state(), isStuck()),
+    () =>
+      statusOf(lab.connection(), lab.ended(), lab.state(), {
+        isStuck: isStuck(),
+        isTouch: IS_TOUCH,
+        // With You a press steers.
+        setsGoals: lab.canOperate() && !lab.steering.isActive(),
+        delivery_s: deliveryTime_s(lab.state(), lab.marks()),
+      }),
     undefined,
     {
       equals: (a, b) => a.text === b.text && a.more === b.more && a.controller === b.controller,

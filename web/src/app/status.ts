@@ -4,7 +4,7 @@ import { isOver } from '../lab/contest';
 import type { ConnectionState } from '../lab/model';
 import { controllerLabel } from '../lab/parameters';
 import type { AttemptStanding, EndFact, StateMessage } from '../net/protocol.gen';
-import { centimetres } from '../ui/format';
+import { centimetres, seconds } from '../ui/format';
 import type { Controller } from '../ui/controllers';
 import { endWords, holdWords, phaseWords, troubleWords } from '../words/facts';
 
@@ -17,6 +17,17 @@ export interface Status {
   readonly tone: 'plain' | 'good' | 'bad';
   /** Whose shape stands before the sentence. */
   readonly controller?: Controller;
+}
+
+/** What the sentence says beside the state. */
+export interface Around {
+  readonly isStuck: boolean;
+  /** A finger taps, a mouse clicks. */
+  readonly isTouch: boolean;
+  /** Whether a press of this browser sets goals. */
+  readonly setsGoals: boolean;
+  /** How long the delivery took. */
+  readonly delivery_s: number | undefined;
 }
 
 const plain = (text: string, rest: Partial<Status> = {}): Status => ({
@@ -41,7 +52,27 @@ function connectionStatus(connection: ConnectionState): Status | undefined {
 
 const capital = (words: string): string => words.charAt(0).toUpperCase() + words.slice(1);
 
-function runningStatus(state: StateMessage, isStuck: boolean): Status {
+const pressWord = (isTouch: boolean): string => (isTouch ? 'Tap' : 'Click');
+const noGoalWords = ({ isTouch }: Around): string => `${pressWord(isTouch)} the map to set a goal`;
+
+/** What is next after a delivery. */
+function deliveredStatus(controller: Controller, around: Around): Status {
+  const { isTouch, setsGoals, delivery_s } = around;
+  const text = delivery_s === undefined ? 'Delivered' : `Delivered in ${seconds(delivery_s)}`;
+  const press = pressWord(isTouch);
+  return {
+    tone: 'good',
+    controller,
+    ...(setsGoals
+      ? {
+          text: `${text}. ${press} the map to set the next goal`,
+          short: `Delivered. ${press} a goal`,
+        }
+      : { text }),
+  };
+}
+
+function runningStatus(state: StateMessage, around: Around): Status {
   const { controller, phase, refusal, trouble } = state;
   const name = controllerLabel({ controller, program: state.program?.name ?? null });
   const whose = { controller };
@@ -57,16 +88,14 @@ function runningStatus(state: StateMessage, isStuck: boolean): Status {
   switch (phase.code) {
     case 'holding':
       if (refusal) return bad(capital(holdWords(refusal)), { ...whose, short: 'The arm holds' });
-      return state.goal_m
-        ? plain('The arm holds', whose)
-        : plain('Click the map to set a goal', { ...whose, short: 'Tap the map to set a goal' });
+      return state.goal_m ? plain('The arm holds', whose) : plain(noGoalWords(around), whose);
     case 'approaching':
       return plain('The arm fetches the bead', {
         ...whose,
         more: `${centimetres(state.tracked_error_m)} away`,
       });
     case 'transporting':
-      if (isStuck) return bad(`${name} is stuck`, { ...whose, more });
+      if (around.isStuck) return bad(`${name} is stuck`, { ...whose, more });
       return controller === 'you'
         ? plain('You carry the bead', { ...whose, more })
         : plain(`${name} carries the bead to the goal`, {
@@ -77,7 +106,7 @@ function runningStatus(state: StateMessage, isStuck: boolean): Status {
     case 'settling':
       return plain('The bead comes to rest at the goal', { ...whose, short: 'The bead settles' });
     case 'delivered':
-      return { text: 'Delivered', tone: 'good', controller };
+      return deliveredStatus(controller, around);
     case 'lifted_off':
       return bad('The bead hangs on the magnet', whose);
     case 'stopped':
@@ -89,7 +118,7 @@ export function statusOf(
   connection: ConnectionState,
   ended: EndFact | undefined,
   state: StateMessage | undefined,
-  isStuck: boolean,
+  around: Around,
 ): Status {
   if (ended) return bad(endWords(ended).replace(/\.$/, ''), { short: 'The session has ended' });
   const trouble = connectionStatus(connection);
@@ -103,12 +132,12 @@ export function statusOf(
     phase.code === 'stopped' ||
     phase.code === 'lifted_off'
   )
-    return runningStatus(state, isStuck);
+    return runningStatus(state, around);
   const { controller } = state;
   if (state.tick > 0) return plain('Paused', { controller });
   return state.goal_m || controller === 'you' || controller === 'robot'
     ? plain('Ready to run', { controller })
-    : plain('Click the map to set a goal', { controller, short: 'Tap the map to set a goal' });
+    : plain(noGoalWords(around), { controller });
 }
 
 function attemptStatus(attempt: AttemptStanding): Status {

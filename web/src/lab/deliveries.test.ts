@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import type { EventMessage } from '../net/protocol.gen';
-import { deliveredGoals } from './deliveries';
-import { eventAt } from './testingFacts';
+import { deliveredGoals, deliveryTime_s } from './deliveries';
+import { eventAt, phaseOf } from './testingFacts';
 
 const goal = (tick: number): EventMessage =>
   eventAt(tick, 'goal', { code: 'goal_placed', x_m: 0, y_m: 0 });
@@ -23,4 +23,20 @@ it('counts a goal once, also when the bead is pulled away and comes again', () =
 it('counts what the server counts where it does not know the events', () => {
   expect(counted(9, 3)).toBe(3);
   expect(deliveredGoals(undefined, [])).toBeUndefined();
+});
+
+it('times the delivery of the present goal', () => {
+  const phase = phaseOf('delivered');
+  const marks = [
+    goal(125),
+    delivered(500),
+    pulled(600),
+    delivered(700),
+    goal(1000),
+    delivered(1500),
+  ];
+  expect(deliveryTime_s({ tick: 900, phase }, marks), 'after it was pulled away').toBeCloseTo(3);
+  expect(deliveryTime_s({ tick: 1500, phase }, marks)).toBeCloseTo(4);
+  expect(deliveryTime_s({ tick: 500, phase }, [delivered(500)]), 'a goal of the start').toBe(4);
+  expect(deliveryTime_s({ tick: 1200, phase: phaseOf('transporting') }, marks)).toBeUndefined();
 });

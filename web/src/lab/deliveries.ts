@@ -1,4 +1,4 @@
-// How many goals were delivered. The server counts each arrival, also that after a disturbance at a goal that was reached.
+// How many goals were delivered, and how long the last one took. The server counts each arrival, also that after a disturbance at a goal that was reached.
 
 import type { EventMessage, StateMessage } from '../net/protocol.gen';
 
@@ -18,4 +18,16 @@ export function deliveredGoals(
     }
   }
   return Math.max(0, state.deliveries - again);
+}
+
+/** How long the delivery of the present goal took, in simulated time. */
+export function deliveryTime_s(
+  state: Pick<StateMessage, 'tick' | 'phase'> | undefined,
+  marks: readonly EventMessage[],
+): number | undefined {
+  if (state?.phase.code !== 'delivered') return undefined;
+  const past = marks.filter(({ tick }) => tick <= state.tick);
+  const goal = past.findLastIndex(({ what }) => what.code === 'goal_placed');
+  const delivered = past.slice(goal + 1).find(({ what }) => what.code === 'delivered');
+  return delivered && delivered.sim_time_s - (past[goal]?.sim_time_s ?? 0);
 }

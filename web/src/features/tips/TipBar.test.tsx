@@ -1,6 +1,7 @@
 import { createSignal } from 'solid-js';
 import { expect, it } from 'vitest';
 import { page, userEvent } from 'vitest/browser';
+import { phaseOf } from '../../lab/testingFacts';
 import { fakeLab, show } from '../../lab/testingLab';
 import { TipBar } from './TipBar';
 
@@ -46,6 +47,8 @@ it('does not ask for what is so already', async () => {
   await expect.element(tip).not.toBeInTheDocument();
   server.hello();
   await expect.element(tip).toHaveTextContent('Drag the bead');
+  server.state({ phase: phaseOf('delivered') });
+  await expect.element(tip).toHaveTextContent('Choose another controller');
 });
 
 it('skips all tips', async () => {

@@ -43,8 +43,9 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
     }),
   );
   const hasGoal = (): boolean => lab.goal() !== undefined;
+  const isDelivered = createMemo(() => lab.state()?.phase.code === 'delivered');
   const tip = (): TipId | undefined =>
-    shown() && lab.canOperate() ? nextTip(done(), hasGoal()) : undefined;
+    shown() && lab.canOperate() ? nextTip(done(), hasGoal(), isDelivered()) : undefined;
   return (
     <Show when={tip()}>
       {(id) => (

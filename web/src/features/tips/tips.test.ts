@@ -5,15 +5,19 @@ const BEFORE: Shown = { running: false, fetching: false, goal: '', controller: '
 
 describe('tips', () => {
   it('come one at a time', () => {
-    expect(nextTip(new Set(), true)).toBe('run');
-    expect(nextTip(new Set(['run', 'goal']), true)).toBe('drag');
-    expect(nextTip(new Set(TIP_IDS), true)).toBeUndefined();
+    expect(nextTip(new Set(), true, false)).toBe('run');
+    expect(nextTip(new Set(['run', 'goal']), true, false)).toBe('drag');
+    expect(nextTip(new Set(TIP_IDS), true, false)).toBeUndefined();
   });
 
   it('begin with the goal if it is not set', () => {
-    expect(nextTip(new Set(), false)).toBe('goal');
+    expect(nextTip(new Set(), false, false)).toBe('goal');
     expect(tipText('goal', false, true)).toBe('Tap a free place to set the goal.');
-    expect(nextTip(new Set(['goal']), false)).toBe('controller');
+    expect(nextTip(new Set(['goal']), false, false)).toBe('controller');
+  });
+
+  it('do not ask for what a delivery has ended', () => {
+    expect(nextTip(new Set(['run']), true, true)).toBe('controller');
   });
 
   it.each([

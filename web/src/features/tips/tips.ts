@@ -29,9 +29,17 @@ export function doneAfter(done: ReadonlySet<TipId>, now: Shown, before: Shown): 
 
 /** Without a goal the arm does not move: running and dragging would show nothing. */
 const NEEDS_GOAL: ReadonlySet<TipId> = new Set(['run', 'drag']);
+/** After a delivery there is nothing to carry, and the status asks for the next goal. */
+const IS_OVER: ReadonlySet<TipId> = new Set(['run', 'drag', 'goal']);
 
-export function nextTip(done: ReadonlySet<TipId>, hasGoal: boolean): TipId | undefined {
-  return TIP_IDS.find((id) => !done.has(id) && (hasGoal || !NEEDS_GOAL.has(id)));
+export function nextTip(
+  done: ReadonlySet<TipId>,
+  hasGoal: boolean,
+  isDelivered: boolean,
+): TipId | undefined {
+  return TIP_IDS.find(
+    (id) => !done.has(id) && (hasGoal || !NEEDS_GOAL.has(id)) && !(isDelivered && IS_OVER.has(id)),
+  );
 }
 
 /** Reads the stored tips; unknown names are ignored. */
