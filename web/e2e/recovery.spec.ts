@@ -50,6 +50,8 @@ test('a recovery map of a live moment shows its cells, and a trial is set up', a
 
 test('a press on the map opens a cell; a map of another goal is off the map', async ({ lab }) => {
   await makeMap(lab);
+  // The page may still show the map of the test before.
+  await expect.poll(async () => (await reportOf(lab)).stage).toBe('done');
   const said = /^At most (\d+) trials/;
   const size = await lab.page.getByTestId('recovery-size').textContent();
   const { planned } = await reportOf(lab);
