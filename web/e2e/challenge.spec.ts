@@ -64,6 +64,7 @@ test('a challenge from a link is played, explained and put on the board', async 
   const { page } = lab;
   await until('the challenge', () => lab.scene.challenge === NAME);
   await expect(lab.tab('Play')).toHaveAttribute('aria-selected', 'true');
+  await expect(lab.setUpButton).toHaveText(/^Challenge\s*Easy · e · posts$/i);
   const way = await errtWay(lab);
   await play(lab, way, 2 * SECOND_TICKS);
   expect(lab.state.running, 'the session pauses').toBe(false);

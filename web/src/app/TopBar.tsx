@@ -2,6 +2,7 @@
 
 import { Show, type JSX } from 'solid-js';
 import { Box, ChevronDown, Layers, Map as MapIcon, PanelRightClose, PanelRightOpen } from 'lucide';
+import { challengeTitle } from '../features/challenge/words';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import { VIEWS } from '../lab/address';
 import type { Lab } from '../lab/slices';
@@ -38,9 +39,11 @@ function Experiment(props: { lab: Lab }): JSX.Element {
         >
           <Icon of={MapIcon} />
           <span>
-            <b>{shownName(scene().map)}</b>
+            <b>{scene().challenge ? 'Challenge' : shownName(scene().map)}</b>
             <small>
-              {disturbances()} · seed {scene().seed}
+              <Show when={scene().challenge} fallback={`${disturbances()} · seed ${scene().seed}`}>
+                {(name) => `${challengeTitle(name())} · ${shownName(scene().map)}`}
+              </Show>
               <Show when={scene().positioner === 'planar_stage'}>
                 {' · '}
                 <span data-testid="positioner">planar stage, no arm</span>

@@ -53,7 +53,11 @@ function connectionStatus(connection: ConnectionState): Status | undefined {
 const capital = (words: string): string => words.charAt(0).toUpperCase() + words.slice(1);
 
 const pressWord = (isTouch: boolean): string => (isTouch ? 'Tap' : 'Click');
-const noGoalWords = ({ isTouch }: Around): string => `${pressWord(isTouch)} the map to set a goal`;
+const noGoalStatus = ({ isTouch }: Around, controller: Controller): Status =>
+  plain(`${pressWord(isTouch)} the map to set a goal`, {
+    controller,
+    short: `${pressWord(isTouch)} to set a goal`,
+  });
 
 /** What is next after a delivery. */
 function deliveredStatus(controller: Controller, around: Around): Status {
@@ -88,7 +92,7 @@ function runningStatus(state: StateMessage, around: Around): Status {
   switch (phase.code) {
     case 'holding':
       if (refusal) return bad(capital(holdWords(refusal)), { ...whose, short: 'The arm holds' });
-      return state.goal_m ? plain('The arm holds', whose) : plain(noGoalWords(around), whose);
+      return state.goal_m ? plain('The arm holds', whose) : noGoalStatus(around, controller);
     case 'approaching':
       return plain('The arm fetches the bead', {
         ...whose,
@@ -137,7 +141,7 @@ export function statusOf(
   if (state.tick > 0) return plain('Paused', { controller });
   return state.goal_m || controller === 'you' || controller === 'robot'
     ? plain('Ready to run', { controller })
-    : plain(noGoalWords(around), { controller });
+    : noGoalStatus(around, controller);
 }
 
 function attemptStatus(attempt: AttemptStanding): Status {
