@@ -6,6 +6,7 @@ import { LONG, Lab, expect, test } from './fixtures';
 import { DESKTOP, PHONE, TABLET } from './support/browser';
 import { open, openLayers, openSceneView, openSetUp } from './support/preconditions';
 import { isDone } from './support/recovery';
+import { MORE_UPDATES, TRAIN_MS, clearTrainings, startTraining } from './support/trainings';
 import { until } from './support/wait';
 
 const WINDOWS = {
@@ -103,7 +104,12 @@ const MAIN: Record<string, Act> = {
   recovery,
   challenge,
   lesson,
-  train: toView('train'),
+  train: async (lab) => {
+    const { origin } = new URL(lab.page.url());
+    await startTraining(lab.page.request, origin, 'runner', MORE_UPDATES);
+    await toView('train')(lab);
+    await lab.page.locator('.train-canvas[data-update]').waitFor({ timeout: TRAIN_MS });
+  },
 };
 
 const OTHERS: Record<string, Act> = {
@@ -140,6 +146,8 @@ async function save({ page }: Lab, name: string) {
 for (const [window, options] of Object.entries(WINDOWS) as [Window, (typeof WINDOWS)[Window]][]) {
   test.describe(`${window} pictures`, () => {
     test.use(options);
+    test.setTimeout(TRAIN_MS);
+    test.afterEach(({ page, server }) => clearTrainings(page.request, server.url));
 
     test('of the first visit', LONG, async ({ openLab, page, session }) => {
       const before = await openLab();
