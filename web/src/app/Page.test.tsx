@@ -93,6 +93,8 @@ it('shows why a goal is refused, and sends none beside the table', async () => {
   await expect.poll(() => server.command('set_goal')).toBeDefined();
   server.refuse('in_wall', 'The goal is in a wall.');
   await expect.poll(() => notice('workspace')?.textContent).toContain('is in a wall');
+  const atPress = document.querySelector('.moment[data-kind=refused]');
+  expect(atPress?.textContent).toContain('is in a wall');
   const before = server.sent.length;
   await canvas.click({ position: { x: width / 2, y: 2 } });
   expect(server.sent.length).toBe(before);

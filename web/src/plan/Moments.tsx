@@ -1,4 +1,4 @@
-// What has just happened, for a moment at its place: a delivery, a loss, a fetch, another controller.
+// What has just happened, for a moment at its place: a delivery, a loss, a fetch, another controller, a refused goal.
 
 import { Show, createEffect, createSignal, on, onCleanup, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../lab/parameters';
@@ -8,9 +8,11 @@ import type { Interaction } from './interaction';
 import './Moments.css';
 
 const SHOWN_MS = 1200;
+/** A sentence needs longer. */
+const REFUSED_MS = 2500;
 
 export interface Happened {
-  readonly kind: 'delivered' | 'lost' | 'fetched' | 'switched';
+  readonly kind: 'delivered' | 'lost' | 'fetched' | 'switched' | 'refused';
   readonly words: string;
   readonly at_m: readonly [number, number, number];
 }
@@ -38,9 +40,18 @@ export function Moments(props: { lab: Trial; interaction: Interaction }): JSX.El
       if (next) setShown(next);
     }),
   );
+  createEffect(
+    on(
+      interaction.refused,
+      (now) => now && setShown({ kind: 'refused', words: now.words, at_m: [...now.at, 0] }),
+      { defer: true },
+    ),
+  );
   createEffect(() => {
-    if (!shown()) return;
-    const timer = setTimeout(() => setShown(undefined), SHOWN_MS);
+    const kind = shown()?.kind;
+    if (!kind) return;
+    const time_ms = kind === 'refused' ? REFUSED_MS : SHOWN_MS;
+    const timer = setTimeout(() => setShown(undefined), time_ms);
     onCleanup(() => clearTimeout(timer));
   });
   const px = (): readonly [number, number] | undefined => {

@@ -6,6 +6,7 @@ import { clampToRect, distance, type TableView, type Vec2 } from '../lab/geometr
 import type { ByHand, Notices, Session, Trial } from '../lab/slices';
 import { Limiter } from '../net/limiter';
 import { Repeater } from '../net/repeater';
+import { refusalWords } from '../words/refusals';
 import { type Act, type Effect, type GestureEvent, type Mode, REST, step } from './gesture';
 import { type LiveLayer, type Press, shownPress } from './layer';
 import { causeOf, type Watched } from './release';
@@ -53,6 +54,12 @@ export interface Picker {
   cancel(): void;
 }
 
+/** Where a goal was refused, and why. */
+interface Refused {
+  readonly at: Vec2;
+  readonly words: string;
+}
+
 export interface Interaction {
   /** The mapping of the open view; undefined until its size is known. */
   readonly view: Accessor<TableView | undefined>;
@@ -82,6 +89,8 @@ export interface Interaction {
   /** Whether it does that at the pointer. */
   readonly isPressable: Accessor<boolean>;
   readonly setGoal: (at: Vec2) => void;
+  /** The last goal that was refused. */
+  readonly refused: Accessor<Refused | undefined>;
   /** Called when a view opens and closes. */
   enter(surface: Surface): void;
   leave(): void;
@@ -98,6 +107,7 @@ export function createInteraction(
   const [pointing, setPointing] = createSignal<Pointing>();
   const [cursor, setCursor] = createSignal<Vec2>();
   const [focused, setFocused] = createSignal(false);
+  const [refused, setRefused] = createSignal<Refused>();
   let surface: Surface | undefined;
 
   const holds = new Repeater<{ at: Vec2; lift: boolean }>(STILL_THERE_MS, ({ at, lift }) => {
@@ -117,7 +127,10 @@ export function createInteraction(
     const workspace = lab.scene()?.workspace;
     // Beside the table, a click means nothing.
     if (!workspace || distance(clampToRect(workspace, at), at) > 0) return;
-    if (mayAct()) void lab.send('workspace', { type: 'set_goal', x_m: at[0], y_m: at[1] });
+    if (!mayAct()) return;
+    void lab.send('workspace', { type: 'set_goal', x_m: at[0], y_m: at[1] }).then((answer) => {
+      if (answer.kind === 'refused') setRefused({ at, words: refusalWords(answer.refusal) });
+    });
   };
   const press = createMemo(() => shownPress(layers));
   const perform = (effect: Effect): void => {
@@ -233,6 +246,7 @@ export function createInteraction(
     press,
     isPressable,
     setGoal,
+    refused,
     cursor,
     setCursor,
     focused,

@@ -26,8 +26,12 @@ const SENTENCES: Readonly<Record<RefusalCode, (one: Refused) => string>> = {
   not_finite: (one) => `${what(one)} must be a finite number.`,
   long_reason: () => 'The program’s reason is too long.',
   outside_workspace: (one) => `${spot(one)} is outside the workspace.`,
-  in_wall: (one) => `${spot(one)} is in a wall, or nearer to one than the bead’s radius of 2.5 mm.`,
-  out_of_reach: inside,
+  // A goal is where the user has pressed.
+  in_wall: (one) =>
+    one.field === 'goal'
+      ? 'A wall is there.'
+      : `${spot(one)} is in a wall, or nearer to one than the bead’s radius of 2.5 mm.`,
+  out_of_reach: (one) => (one.field === 'goal' ? 'The arm cannot go there.' : inside(one)),
   parameter_out_of_range: range,
   disturbance_out_of_range: range,
   not_you: (one) => `Only the controller You can be steered; it is ${controller(one)}.`,

@@ -42,6 +42,8 @@ describe('a refused command', () => {
     expect(refused('in_wall', { x_m: 0.1, y_m: -0.3 })).toMatch(
       /^\(0\.100, −0\.300\) m is in a wall/,
     );
+    expect(refused('in_wall', { x_m: 0.1, y_m: -0.3 }, 'goal')).toBe('A wall is there.');
+    expect(refused('out_of_reach', {}, 'goal')).toBe('The arm cannot go there.');
     expect(refused('out_of_range', { value: 99, allowed: '0.125 to 64' }, 'factor')).toBe(
       'factor is 99, it must be 0.125 to 64.',
     );
