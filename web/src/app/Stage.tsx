@@ -147,30 +147,33 @@ export function Stage(props: {
           <TipBar lab={lab} scene={isScene()} />
         </Show>
         {props.children}
-        <Show
-          when={lab.steering.isActive() && !lab.state()?.goal_m}
-          fallback={
-            <CommandButton
-              lab={lab}
-              at="workspace"
-              class="ghost small"
-              disabled={!lab.state()?.goal_m}
-              command={() => ({ type: 'clear_goal' })}
-            >
-              Clear goal
-            </CommandButton>
-          }
-        >
-          {/* A press steers here, so that a click cannot set the goal. */}
-          <button
-            type="button"
-            class="ghost small"
-            onClick={() => {
-              interaction.picker.start(interaction.setGoal);
-            }}
+        {/* Without its goal an attempt at a challenge is over. */}
+        <Show when={!lab.scene()?.challenge}>
+          <Show
+            when={lab.steering.isActive() && !lab.state()?.goal_m}
+            fallback={
+              <CommandButton
+                lab={lab}
+                at="workspace"
+                class="ghost small"
+                disabled={!lab.state()?.goal_m}
+                command={() => ({ type: 'clear_goal' })}
+              >
+                Clear goal
+              </CommandButton>
+            }
           >
-            Set goal
-          </button>
+            {/* A press steers here, so that a click cannot set the goal. */}
+            <button
+              type="button"
+              class="ghost small"
+              onClick={() => {
+                interaction.picker.start(interaction.setGoal);
+              }}
+            >
+              Set goal
+            </button>
+          </Show>
         </Show>
         <output class="readout number" aria-live="off">
           <Show when={readout()} fallback={!isScene() && <ScaleBar />}>
