@@ -29,7 +29,7 @@ function Shelf(props: {
   all: readonly ChallengeSummary[];
 }): JSX.Element {
   return (
-    <section class="challenge-part" aria-label={props.title}>
+    <section class="stack" aria-label={props.title}>
       <h3>{props.title}</h3>
       <ol class="list">
         <For each={props.all}>
@@ -107,7 +107,7 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
       <For each={ORDER}>
         {(period) => <Shelf lab={lab} title={PERIOD_LABELS[period]} all={of(period)} />}
       </For>
-      <section class="challenge-part" aria-label="Your own">
+      <section class="stack" aria-label="Your own">
         <h3>Your own</h3>
         <OwnSeed lab={lab} />
       </section>

@@ -30,7 +30,7 @@ const LINES = 5;
 
 function Rules(props: { rules: ChallengeReport }): JSX.Element {
   return (
-    <section class="challenge-part" aria-label="Rules">
+    <section class="stack" aria-label="Rules">
       <h3>Rules</h3>
       <p class="hint">
         The score is the time until the bead rests in the goal circle. Each time that a wall stops
@@ -85,9 +85,9 @@ function Race(props: {
 function Board(props: { board: readonly BoardEntry[] }): JSX.Element {
   return (
     <Show when={props.board.length > 0}>
-      <section class="challenge-part">
+      <section class="stack">
         <h3>Board</h3>
-        <ol class="challenge-board">
+        <ol class="challenge-board plain">
           <For each={props.board.slice(0, LINES)}>
             {(line) => (
               <li>
@@ -151,7 +151,7 @@ function Attempt(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.El
   );
   const rules = (): ChallengeReport | undefined => props.lab.contest.challenge();
   return (
-    <section class="challenge-part" aria-label="Your attempt">
+    <section class="stack" aria-label="Your attempt">
       <h3>Your attempt</h3>
       <dl class="facts challenge-facts">
         <div>
@@ -196,7 +196,7 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
       </Show>
       <Show when={contest.error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
       <Show when={counts()}>{(attempt) => <Result lab={lab} attempt={attempt()} />}</Show>
-      <section class="challenge-part" aria-label="Ghosts">
+      <section class="stack" aria-label="Ghosts">
         <h3>To beat</h3>
         <Show
           when={contest.ghosts()}

@@ -86,7 +86,7 @@ function SubControllers(props: { state: StateMessage }): JSX.Element {
   };
   return (
     <ul
-      class="sub-controllers"
+      class="sub-controllers plain"
       aria-label={`Switching law: sub-controller ${props.state.mode} is active`}
     >
       <For each={SUB_CONTROLLERS}>

@@ -33,7 +33,7 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
             : undefined
         }
       />
-      <span class="entry-about">{subject(props.summary)}</span>
+      <span class="entry-about rule">{subject(props.summary)}</span>
     </button>
   );
 }

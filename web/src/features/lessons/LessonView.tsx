@@ -109,7 +109,7 @@ export function LessonView(props: Props & { lab: Session & Trial & Events }): JS
   );
   return (
     <>
-      <header class="lesson-head">
+      <header class="lesson-head stack">
         <div>
           <button type="button" class="ghost small" onClick={store.close}>
             <Icon of={ArrowLeft} />
@@ -122,7 +122,7 @@ export function LessonView(props: Props & { lab: Session & Trial & Events }): JS
           </Show>
         </div>
         <h2>{lesson.title}</h2>
-        <ol class="lesson-steps" aria-label="Steps">
+        <ol class="lesson-steps plain" aria-label="Steps">
           <For each={names}>
             {(name, index) => (
               <li

@@ -108,7 +108,7 @@ function ExperimentStep(props: Props<Run>): JSX.Element {
           The page shows another experiment now. Set this one up again to continue.
         </p>
       </Show>
-      <ul class="lesson-tasks">
+      <ul class="lesson-tasks plain">
         <For each={store.tasks()}>
           {(task) => (
             <li classList={{ done: isDone(task), next: store.nextTask() === task }}>

@@ -35,7 +35,7 @@ const MARKS: readonly (readonly [name: string, help: string, icon: () => JSX.Ele
 
 export function MarksKey(): JSX.Element {
   return (
-    <dl class="marks" aria-label="Marks on the map">
+    <dl class="marks stack" aria-label="Marks on the map">
       <For each={MARKS}>
         {([name, help, icon]) => (
           <div>

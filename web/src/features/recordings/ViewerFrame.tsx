@@ -37,15 +37,13 @@ export function ViewerFrame(props: {
     <section class="viewer" aria-labelledby="viewer-title">
       <header>
         <h2 id="viewer-title">
-          {props.name} <span class="viewer-note">{label(props.file)}</span>
+          {props.name} <span class="rule">{label(props.file)}</span>
         </h2>
         <Show when={props.file.live}>
-          <span class="viewer-note">
-            still recording; this shows the data at the time of opening
-          </span>
+          <span class="rule">still recording; this shows the data at the time of opening</span>
           <SmallButton onClick={props.onAgain}>Reload</SmallButton>
         </Show>
-        <span class="viewer-note">
+        <span class="rule">
           <kbd>{LEAVE_KEY}</kbd> leaves the viewer
         </span>
         <SmallButton ref={closer} onClick={props.onClose}>

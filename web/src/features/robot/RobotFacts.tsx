@@ -12,7 +12,7 @@ const SHOWN = 5;
 export function RobotFacts(props: { robot: RobotStanding }): JSX.Element {
   const refused = (): RobotStanding['refused'] => props.robot.refused.slice(-SHOWN).reverse();
   return (
-    <div class="robot-facts">
+    <div class="robot-facts stack">
       <p
         data-testid="robot-motion"
         classList={{ stopped: props.robot.stop !== null }}

@@ -29,7 +29,7 @@ export function YouFacts(props: { lab: ByHand & Panels }): JSX.Element {
       : 'Press the map and move the pointer: the tool follows. Or focus the map and hold the arrow keys.';
   };
   return (
-    <section class="you" aria-label="Steering">
+    <section class="you stack" aria-label="Steering">
       <p class="hint" data-testid="steer-how">
         {how()}
       </p>

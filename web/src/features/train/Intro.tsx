@@ -32,7 +32,7 @@ function HowItLearns(): JSX.Element {
 
 export function Intro(): JSX.Element {
   return (
-    <div class="train-intro" role="region" aria-label="What happens here">
+    <div class="train-intro stack" role="region" aria-label="What happens here">
       <HowItLearns />
       <p>
         Press <strong>Train</strong>. With the recipe <em>Quick</em> it takes a few minutes, and you
@@ -45,7 +45,7 @@ export function Intro(): JSX.Element {
 /** The same after the first training. */
 export function FoldedIntro(): JSX.Element {
   return (
-    <div class="train-intro" role="region" aria-label="What happens here">
+    <div class="train-intro stack" role="region" aria-label="What happens here">
       <details>
         <summary>How does it learn?</summary>
         <HowItLearns />

@@ -45,7 +45,7 @@ export function PoliciesPanel(props: {
       <p class="refusal" role="alert">
         {refusal()}
       </p>
-      <ul>
+      <ul class="plain">
         <ForKeyed each={all()} by={({ name }) => name}>
           {(policy) => (
             <PolicyRow

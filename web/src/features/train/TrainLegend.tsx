@@ -39,7 +39,7 @@ const MARKS: readonly (readonly [kind: string, path: string, words: string])[] =
 
 export function Marks(): JSX.Element {
   return (
-    <ul class="train-marks" aria-label="Marks">
+    <ul class="train-marks plain" aria-label="Marks">
       <For each={MARKS}>
         {([kind, path, words]) => (
           <li>

@@ -69,7 +69,7 @@ export function TrainingHead(props: {
     return `${Math.floor((100 * updates) / Math.max(1, updates_total))} % · `;
   };
   return (
-    <div class="training-head" data-stage={props.summary.stage}>
+    <div class="training-head stack" data-stage={props.summary.stage}>
       <header>
         <h2 ref={heading} tabindex="-1">
           {name()}

@@ -60,7 +60,7 @@ export function TwinFacts(props: { lab: Session & Trial }): JSX.Element {
   return (
     <Show when={props.lab.state()?.twin}>
       {(twin) => (
-        <section class="twin-facts" aria-label="Robot">
+        <section class="twin-facts stack" aria-label="Robot">
           <p data-testid="twin-connection" classList={{ stopped: twin().trouble !== null }}>
             {connectionWords(twin())}
           </p>
