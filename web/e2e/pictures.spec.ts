@@ -4,7 +4,7 @@
 import { fileURLToPath } from 'node:url';
 import { LONG, Lab, expect, test } from './fixtures';
 import { DESKTOP, PHONE, TABLET } from './support/browser';
-import { open, openLayers, openSceneView, openSetUp } from './support/preconditions';
+import { openLayers, openSceneView, openSetUp } from './support/preconditions';
 import { isDone } from './support/recovery';
 import { MORE_UPDATES, TRAIN_MS, clearTrainings, startTraining } from './support/trainings';
 import { until } from './support/wait';
@@ -71,7 +71,7 @@ async function recovery(lab: Lab) {
   await lab.step(RUN_TICKS);
   await show(lab, 'Test', 'Recovery');
   await lab.label('Disturbance').selectOption('place');
-  await lab.label('Columns').fill('10');
+  await lab.label('Columns').fill('12');
   await lab.label('Repeats').fill('1');
   await lab.page.getByRole('button', { name: /^Map from/ }).click();
   await isDone(lab);
@@ -98,7 +98,7 @@ const MAIN: Record<string, Act> = {
   lab: run,
   plots: async (lab) => {
     await run(lab);
-    await open('Plots')(lab);
+    await lab.button('Plots').click();
   },
   compare,
   recovery,
@@ -161,9 +161,8 @@ for (const [window, options] of Object.entries(WINDOWS) as [Window, (typeof WIND
 
     const acts = { ...MAIN, ...(['small', 'wide'].includes(window) ? OTHERS : {}) };
     for (const [state, act] of Object.entries(acts)) {
-      test(`of ${state}`, LONG, async ({ page, session }) => {
-        const lab = await Lab.attach(page, session.url);
-        await setUp(lab, ['compare', 'recovery'].includes(state) ? POSTS : COLON);
+      test(`of ${state}`, LONG, async ({ lab, session }) => {
+        await setUp(lab, state === 'compare' ? POSTS : COLON);
         await act(lab);
         await save(lab, `${state}-${window}`);
         expect(lab.page.url()).toContain(session.name);

@@ -115,13 +115,14 @@ export class Labels {
     };
     const aside = away_px + halfWide;
     const over = away_px + halfHigh;
-    const boxes = [
-      boxAt(aside, 0),
-      boxAt(0, -over),
-      boxAt(0, over),
-      boxAt(-aside, 0),
-      ...[1, 2, 3].map((line) => boxAt(0, over + line * LABEL_HEIGHT_PX)),
-    ];
+    const boxes = [0, 1, 2, 3, 4]
+      .map((line) => line * LABEL_HEIGHT_PX)
+      .flatMap((more) => [
+        boxAt(aside + more, 0),
+        boxAt(0, -over - more),
+        boxAt(0, over + more),
+        boxAt(-aside - more, 0),
+      ]);
     const { a: ratio } = ctx.getTransform();
     const isFree = (box: Box): boolean =>
       Math.min(box[0], box[1]) > 2 &&
