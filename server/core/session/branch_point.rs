@@ -82,8 +82,8 @@ impl BranchPoint {
         Ok((before, trial.tick(Source::Camera(camera))?))
     }
 
-    /// Continues from here under a controller, with all steps of a leg and a goal, and with the disturbances of hand and
-    /// script at their ticks, until all goals are delivered or until [`Self::until_tick`]. `advance` makes each tick;
+    /// Continues from here under a controller, with all steps of a leg and a goal, and with the goals and disturbances of
+    /// hand and script at their ticks, until the first delivery or until [`Self::until_tick`]. `advance` makes each tick;
     /// `watch` is called after it and may stop the branch. Inputs that select controllers, and answers of a program, are
     /// omitted; inputs that are impossible in the branch are skipped.
     ///
@@ -117,7 +117,9 @@ impl BranchPoint {
                 delivered_tick = Some(record.tick);
             }
             let rests = record.moment.phase.is_final() && record.moment.hand.is_none();
-            let done = record.tick >= self.until_tick() || (rests && inputs.peek().is_none());
+            // What comes after the delivery belongs to another goal.
+            let is_over = delivered_tick.is_some() || inputs.peek().is_none();
+            let done = record.tick >= self.until_tick() || (rests && is_over);
             let progress = Progress { record: &record, tally: &tally, delivered_tick, done };
             if watch(progress).is_break() || done {
                 return Ok(());

@@ -112,6 +112,9 @@ fn goal_drag_rewind_compare_and_return() {
     let delivered = bench.run_until("the delivery", |view| view.moment.counters.deliveries == 1);
     assert!(delivered.moment.counters.switches >= 2, "{:?}", delivered.moment.counters);
     assert!(bench.said("delivered"), "{:?}", bench.events);
+    let delivered_tick = delivered.moment.tick;
+    bench.input(goal(-0.1));
+    let last = bench.run_until("the way to another goal", |view| view.moment.tick == delivered_tick + 50);
 
     // Rewound to before the drag, other controllers run beside the session, and the same one repeats what happened.
     let rewound = bench.send(Command::Rewind(240)).unwrap();
@@ -124,13 +127,14 @@ fn goal_drag_rewind_compare_and_return() {
         let mut advance = |trial: &mut crate::trial::Trial| trial.tick(Source::Camera(&mut camera));
         let mut watch = |progress: super::Progress<'_>| {
             if progress.done {
-                ends.push((progress.delivered_tick, progress.record.moment.counters.switches));
+                ends.push((progress.delivered_tick, progress.record.tick, progress.record.moment.counters.switches));
             }
             ControlFlow::Continue(())
         };
         point.branch::<TrialError>(controller, &mut advance, &mut watch).unwrap();
     }
-    assert_eq!(ends[0], (Some(delivered.moment.tick), delivered.moment.counters.switches));
+    // It ends there, without the goal that was set later.
+    assert_eq!(ends[0], (Some(delivered_tick), delivered_tick, delivered.moment.counters.switches));
     assert!(ends[1].0.is_some());
     assert_eq!(bench.session.view().world_hash, rewound.world_hash, "a branch leaves the session as it is");
 
@@ -140,13 +144,13 @@ fn goal_drag_rewind_compare_and_return() {
     let kept = bench.session.view().scenery.kept_runs.clone();
     assert_eq!(kept.iter().map(|run| (run.number, run.deliveries)).collect::<Vec<_>>(), [(1, 1)]);
     let returned = bench.send(Command::Return(1)).unwrap();
-    assert_eq!((returned.world_hash, returned.running), (delivered.world_hash, false));
+    assert_eq!((returned.world_hash, returned.running), (last.world_hash, false));
     assert!(matches!(bench.send(Command::Return(9)), Err(CommandError::NoRun { number: 9 })));
 
     // It is saved, and goes on elsewhere.
     let log = InputLog::read(&bench.session.saved().to_bytes().unwrap()).unwrap();
     let again = Bench::new(Scenario::idle("posts", 1), Opening::Saved(Saved::of(log)));
-    assert_eq!(again.session.view().world_hash, delivered.world_hash);
+    assert_eq!(again.session.view().world_hash, last.world_hash);
     assert!(again.said("the session goes on"), "{:?}", again.events);
 }
 

@@ -17,7 +17,7 @@ import { SteeredBy } from '../features/controller/SteeredBy';
 import { Timeline } from '../features/playback/Timeline';
 import { Transport } from '../features/playback/Transport';
 import { KeptRuns } from '../features/runs/KeptRuns';
-import { hasLanes, toggleLanes } from '../lab/lanes';
+import { hasLanes, hasLargeLanes, toggleLanes } from '../lab/lanes';
 import { lazyPanel } from '../lab/panel';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Lab } from '../lab/slices';
@@ -153,7 +153,7 @@ export function Dock(props: { lab: Lab }): JSX.Element {
       </div>
       <div class="times">
         <Show when={hasLanes()}>
-          <div class="lanes">
+          <div class="lanes" classList={{ large: hasLargeLanes() }}>
             <PlotLanes lab={lab} axis={axis} />
             <Cursors axis={axis} />
           </div>
@@ -191,6 +191,7 @@ export function Dock(props: { lab: Lab }): JSX.Element {
           <div class="dock-tools">
             <button
               type="button"
+              aria-label="Disturb"
               aria-pressed={disturbs()}
               disabled={!lab.canOperate()}
               onClick={() => {

@@ -25,7 +25,7 @@ export function WorkspaceHint(props: {
       when={!props.steers}
       fallback={
         <>
-          <Hint icon={HandGrab}>Press and move: the tool follows</Hint>{' '}
+          <Hint icon={HandGrab}>Press and move: the magnet follows</Hint>{' '}
           <Show when={!IS_TOUCH}>
             <Hint icon={Keyboard}>Or hold the arrow keys</Hint>
           </Show>

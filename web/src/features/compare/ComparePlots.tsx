@@ -118,8 +118,8 @@ export function ComparePlots(props: Props): JSX.Element {
       </Show>
       <Curves
         {...props}
-        title="Error norm"
-        name="Error norm of each controller over time since the moment"
+        title="Distance e, true"
+        name="Distance e of each controller over time since the moment"
         limit_cm={(props.lab.scene()?.parameters.threshold_m ?? 0) * CM}
         lengths_m={errors_m}
       />

@@ -37,7 +37,7 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
         if (tick === undefined) return;
         await lab.send('compare', { type: 'fork', tick, controllers: wanted() });
       }}
-      button={hasResults() ? 'Compare from here' : `Compare from ${clock(from_s())}`}
+      button={`Compare from ${isOver() ? 'the last goal, ' : ''}${clock(from_s())}`}
       {...(hasResults() && { icon: GitCompare })}
       buttonTitle={title()}
       disabled={!lab.canOperate() || from() === undefined}

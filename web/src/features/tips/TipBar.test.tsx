@@ -49,6 +49,8 @@ it('does not ask for what is so already', async () => {
   await expect.element(tip).toHaveTextContent('Drag the bead');
   server.state({ phase: phaseOf('delivered') });
   await expect.element(tip).toHaveTextContent('Choose another controller');
+  await page.getByRole('button', { name: 'Compare' }).click();
+  await expect.element(tip).toHaveTextContent('Choose 3-D');
 });
 
 it('skips all tips', async () => {

@@ -2,7 +2,7 @@
 
 import { Lightbulb } from 'lucide';
 import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
-import type { Session, Trial } from '../../lab/slices';
+import type { Panels, Session, Trial } from '../../lab/slices';
 import { IS_TOUCH } from '../../ui/touch';
 import { recall, remember } from '../../ui/storage';
 import { type Shown, TIP_IDS, type TipId, doneAfter, nextTip, tipsFrom, tipText } from './tips';
@@ -11,7 +11,7 @@ import './tips.css';
 
 const KEY = 'tips';
 
-export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Element {
+export function TipBar(props: { lab: Session & Trial & Panels; scene: boolean }): JSX.Element {
   const { lab } = props;
   const [done, setDone] = createSignal<ReadonlySet<TipId>>(tipsFrom(recall(KEY)));
   const store = (tips: ReadonlySet<TipId>): void => {
@@ -27,6 +27,7 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
           fetching: state.mode === 1 && state.disturbances > 0,
           goal: state.goal_m?.join() ?? '',
           controller: state.controller,
+          compares: lab.panel() === 'compare',
           scene: props.scene,
         }
       );
@@ -52,6 +53,11 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
         <p class="tip" role="status">
           <Icon of={Lightbulb} />
           <span>{tipText(id(), hasGoal(), IS_TOUCH)}</span>
+          <Show when={id() === 'controller'}>
+            <button type="button" class="small" onClick={() => lab.showPanel('compare')}>
+              Compare
+            </button>
+          </Show>
           <button type="button" class="ghost small" onClick={() => store(new Set(TIP_IDS))}>
             Skip tips
           </button>

@@ -1,7 +1,14 @@
 import { describe, expect, it } from 'vitest';
 import { type Shown, TIP_IDS, doneAfter, nextTip, tipText, tipsFrom } from './tips';
 
-const BEFORE: Shown = { running: false, fetching: false, goal: '', controller: 'rl', scene: false };
+const BEFORE: Shown = {
+  running: false,
+  fetching: false,
+  goal: '',
+  controller: 'rl',
+  compares: false,
+  scene: false,
+};
 
 describe('tips', () => {
   it('come one at a time', () => {
@@ -25,6 +32,7 @@ describe('tips', () => {
     ['drag', { fetching: true }],
     ['goal', { goal: '0.1,-0.3' }],
     ['controller', { controller: 'errt' }],
+    ['controller', { compares: true }],
     ['scene', { scene: true }],
   ] as const)('%s is done by what it asks for', (id, change) => {
     expect([...doneAfter(new Set(), { ...BEFORE, ...change }, BEFORE)]).toEqual([id]);

@@ -10,6 +10,8 @@ export interface Shown {
   readonly fetching: boolean;
   readonly goal: string;
   readonly controller: string;
+  /** The panel *Compare*. */
+  readonly compares: boolean;
   /** The 3-D view. */
   readonly scene: boolean;
 }
@@ -18,7 +20,7 @@ const DONE: Readonly<Record<TipId, (now: Shown, before: Shown) => boolean>> = {
   run: (now) => now.running,
   drag: (now) => now.fetching,
   goal: (now, before) => now.goal !== '' && now.goal !== before.goal,
-  controller: (now, before) => now.controller !== before.controller,
+  controller: (now, before) => now.controller !== before.controller || now.compares,
   scene: (now) => now.scene,
 };
 
@@ -55,13 +57,11 @@ export function tipText(id: TipId, hasGoal: boolean, isTouch: boolean): string {
     case 'run':
       return 'Press Run, then drag the bead away.';
     case 'drag':
-      return 'Drag the bead far out of the blue circle: the magnet loses it, and the arm fetches it.';
+      return 'Drag the bead far out of the circle: the magnet loses it.';
     case 'goal':
-      return hasGoal
-        ? `The arm fetches the lost bead. ${click} a free place to set another goal.`
-        : `${click} a free place to set the goal.`;
+      return `${click} a free place to set ${hasGoal ? 'another' : 'the'} goal.`;
     case 'controller':
-      return 'Choose another controller. Or open Compare, which runs all three side by side.';
+      return 'Choose another controller, or run all three side by side.';
     case 'scene':
       return 'Choose 3-D to see the arm.';
   }
