@@ -178,8 +178,8 @@ export default function ComparePanel(
         when={lab.comparison.shown()}
         fallback={
           <Empty icon={GitCompare} question="Who is faster from here?">
-            The controllers run from one moment with the same disturbances, for up to 60 s, beside your
-            session.
+            The controllers run from one moment with the same disturbances, for up to 60 s, beside
+            your session.
           </Empty>
         }
       >
@@ -197,7 +197,9 @@ export default function ComparePanel(
               <ComparePlots lab={lab} comparison={comparison()} tick_s={tick_s()} />
             </div>
             <Measures comparison={comparison()} tick_s={tick_s()} />
-            <p class="hint">Up to the delivery, goals and disturbances come again at their times.</p>
+            <p class="hint">
+              Up to the delivery, goals and disturbances come again at their times.
+            </p>
           </>
         )}
       </Show>
