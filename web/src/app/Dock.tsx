@@ -12,7 +12,6 @@ import {
 } from 'solid-js';
 import { Activity, Eye, HandGrab, Radio } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
-import { CompareLine } from '../features/compare/CompareLine';
 import { SteeredBy } from '../features/controller/SteeredBy';
 import { Timeline } from '../features/playback/Timeline';
 import { Transport } from '../features/playback/Transport';
@@ -26,9 +25,15 @@ import { createTimeAxis, type TimeAxis } from '../lab/timeAxis';
 import type { ComparisonMessage } from '../net/protocol.gen';
 import { clock } from '../ui/format';
 import { Icon } from '../ui/Icon';
+import { lazyPart } from '../ui/lazyPart';
 import { isPhone } from '../ui/windowSize';
 import './Dock.css';
 
+const CompareLine = lazyPart(
+  () => import('../features/compare/CompareLine'),
+  'panel',
+  (missing) => missing ?? <div class="track" />,
+);
 const TaskBar = lazyPanel(() => import('../features/lessons/TaskBar'));
 const PlotLanes = lazyPanel(() => import('../features/plots/PlotLanes'));
 

@@ -3,7 +3,7 @@ import { page } from 'vitest/browser';
 import { branchOf, comparisonOf } from '../../lab/testing';
 import { fakeLab, show } from '../../lab/testingLab';
 import { createTimeAxis } from '../../lab/timeAxis';
-import { CompareLine } from './CompareLine';
+import CompareLine from './CompareLine';
 
 it('has a row for each controller up to its end, with marks side by side, and moves the ghosts', async () => {
   const { lab, server } = fakeLab();

@@ -18,7 +18,7 @@ import './compare.css';
 /** Marks of outcomes do not cover each other. */
 const GAP_PX = 24;
 
-export function CompareLine(props: {
+export default function CompareLine(props: {
   lab: Compared;
   comparison: ComparisonMessage;
   axis: TimeAxis;
