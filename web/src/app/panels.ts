@@ -1,7 +1,6 @@
 // The panels of the inspector, and the tabs that they are under.
 
 import type { Component } from 'solid-js';
-import { EventsPanel } from '../features/events/EventsPanel';
 import type { MapOpener } from '../features/maps/opener';
 import type { PageExperiment } from '../lab/pageExperiment';
 import type { PanelName } from '../lab/panels';
@@ -40,7 +39,11 @@ const tab = (name: PanelName, title: string, panel: Panel['panel']): Tab => ({
 
 export const TABS: readonly Tab[] = [
   tab('now', 'Now', NowPanel),
-  tab('story', 'Story', EventsPanel),
+  tab(
+    'story',
+    'Story',
+    lazyPanel(() => import('../features/events/EventsPanel')),
+  ),
   tab(
     'learn',
     'Learn',

@@ -6,7 +6,7 @@ import { page, userEvent } from 'vitest/browser';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { fakeLab, show } from '../../lab/testingLab';
 import { openCase } from './cases';
-import { EventsPanel } from './EventsPanel';
+import EventsPanel from './EventsPanel';
 
 const opener = page.getByRole('button', { name: 'Open test case…' });
 

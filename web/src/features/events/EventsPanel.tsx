@@ -79,7 +79,7 @@ function Line(props: {
   );
 }
 
-export function EventsPanel(props: PanelProps): JSX.Element {
+export default function EventsPanel(props: PanelProps): JSX.Element {
   const { lab } = props;
   let list!: HTMLUListElement;
   const lines = createMemo(() => lab.log().toReversed());

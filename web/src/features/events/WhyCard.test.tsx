@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { eventAt } from '../../lab/testingFacts';
 import { page } from 'vitest/browser';
 import { fakeLab, show } from '../../lab/testingLab';
-import { EventsPanel } from './EventsPanel';
+import EventsPanel from './EventsPanel';
 
 it('closes when the trial restarts', async () => {
   const { lab, server } = fakeLab();
