@@ -4,6 +4,8 @@ import type { ClientMessage } from '../net/protocol.gen';
 import { createSteering, joined } from './steering';
 import { sceneOf, stateAt } from './testing';
 
+const ATTEMPT = { walls: 0, lost_beads: 0, total_s: 9, is_time_up: false, void: null };
+
 describe('joined', () => {
   it('adds directions and keeps a length of at most 1', () => {
     expect(joined([])).toEqual([0, 0]);
@@ -45,6 +47,14 @@ describe('steering', () => {
     steering.point([5, -0.3]);
     expect(sent).toEqual([{ type: 'steer', x_m: 0.28, y_m: -0.3, approach: false }]);
     expect(steering.target()).toEqual([0.28, -0.3]);
+  });
+
+  it('points nowhere after the end of an attempt', () => {
+    const { steering, sent, setState } = open('you');
+    steering.point([0.2, -0.3]);
+    setState((state) => ({ ...state, attempt: { ...ATTEMPT, is_delivered: true } }));
+    steering.point([0.1, -0.3]);
+    expect([sent.length, steering.target()]).toEqual([1, undefined]);
   });
 
   it('forgets its target when the scene is sent again, as after a rewind', () => {

@@ -4,6 +4,7 @@ import { createEffect, createMemo, createSignal, on, onCleanup } from 'solid-js'
 import { Limiter } from '../net/limiter';
 import { clampToRect, type Vec2 } from './geometry';
 import type { Basis } from './basis';
+import { isOver } from './contest';
 
 const MOST_PER_S = 60;
 /** A direction points this far ahead of the tool: at full speed it gets there in .6 s. */
@@ -28,12 +29,14 @@ export function createSteering(lab: Pick<Basis, 'scene' | 'state' | 'canOperate'
   const leans = new Map<Device, Vec2>();
   let timer: ReturnType<typeof setInterval> | undefined;
   const isActive = createMemo(() => lab.state()?.controller === 'you' && lab.canOperate());
+  /** Then nothing moves any more. */
+  const hasEnded = createMemo(() => isOver(lab.state()?.attempt ?? undefined));
   const steers = new Limiter<Vec2>(1000 / MOST_PER_S, ([x_m, y_m]) => {
     if (isActive()) lab.stream({ type: 'steer', x_m, y_m, approach: approach() });
   });
   const point = (at: Vec2): void => {
     const scene = lab.scene();
-    if (!scene || !isActive()) return;
+    if (!scene || !isActive() || hasEnded()) return;
     const place = clampToRect(scene.workspace, at);
     setTarget(place);
     steers.offer(place);
@@ -56,7 +59,7 @@ export function createSteering(lab: Pick<Basis, 'scene' | 'state' | 'canOperate'
     setTarget(undefined);
   };
   // A rewind sends the scene again: the rewound state says where the tool is pointed.
-  createEffect(on([isActive, lab.scene], forget));
+  createEffect(on([isActive, lab.scene, hasEnded], forget));
   onCleanup(stop);
   return {
     /** Whether the hand steers: the controller is You, and this browser operates. */
