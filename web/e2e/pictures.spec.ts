@@ -114,11 +114,11 @@ const MAIN: Record<string, Act> = {
 
 const OTHERS: Record<string, Act> = {
   pulled: async (lab) => {
-    await lab.step(RUN_TICKS);
+    await lab.step(RUN_TICKS / 2);
+    await lab.speed('0.25');
     const [x, y] = await lab.bead();
-    await lab.startDrag([x + 0.1, y + 0.03]);
+    await lab.startDrag([x + 0.14, y + 0.02]);
     await lab.page.keyboard.press('Space');
-    await lab.later(30);
   },
   scene: openSceneView,
   story: async (lab) => {
@@ -147,6 +147,11 @@ for (const [window, options] of Object.entries(WINDOWS) as [Window, (typeof WIND
   test.describe(`${window} pictures`, () => {
     test.use(options);
     test.setTimeout(TRAIN_MS);
+    test.beforeEach(({ page }) =>
+      page.addInitScript(() => {
+        localStorage.setItem('ferry.panel.camera', 'closed');
+      }),
+    );
     test.afterEach(({ page, server }) => clearTrainings(page.request, server.url));
 
     test('of the first visit', LONG, async ({ openLab, page, session }) => {
