@@ -101,7 +101,7 @@ export const VIEWS: Section = {
     'button Layers': { see: panel, ready: showPanel('Now'), isToggle: true },
     'button Key': { see: panel, ready: showPanel('Now') },
     'button Close': { see: panel, ready: openLayers },
-    'button /seed \\d+$/': { see: panel, ready: showPanel('Now'), isToggle: true },
+    'button /seed \\d+$|^Challenge /': { see: panel, ready: showPanel('Now'), isToggle: true },
     'button Plots': toggle(isPressed),
     'button Camera': toggle(expanded, showPanel('Now')),
     'button Curves': { see: panel, ready: showPanel('Now') },
