@@ -56,6 +56,17 @@ test("plots the paper's figure, and saves it", async ({ lab }) => {
   for (const part of ['a', 'b']) expect(await textOf(lab, part)).toContain(`at ${moment}`);
   await page.mouse.move(0, 0);
 
+  // Large plots are higher, and the map keeps its scale.
+  const map = page.locator('.map-box');
+  const before = await lab.boxOf(map);
+  await openMenu(lab);
+  await page.getByRole('checkbox', { name: 'Large plots' }).check();
+  await expect
+    .poll(async () => (await lab.boxOf(page.locator('[data-part=e]'))).height)
+    .toBeGreaterThan(2 * box.height);
+  expect((await lab.boxOf(map)).height).toBe(before.height);
+  await page.getByRole('checkbox', { name: 'Large plots' }).uncheck();
+
   // There is room for three; another one takes the place of the one that was chosen first.
   await openMenu(lab);
   await page.getByRole('checkbox', { name: 'Error x' }).check();

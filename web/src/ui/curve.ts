@@ -42,7 +42,7 @@ export interface Rule {
 }
 
 export interface CurveContext {
-  /** The numbers of the axes are beside the plot, which has lines for those of x only. */
+  /** The numbers of the axes are beside the plot, which has only their lines. */
   readonly isBare?: boolean;
   readonly lines: readonly CurveLine[];
   /** Pairs of lines, upper one first, with the area between them filled in the colour of the upper one. */
@@ -53,6 +53,8 @@ export interface CurveContext {
   readonly yRange: (max: number, min: number) => [number, number];
   /** Where the axis has its numbers, of which `most` have room; without, at round ones. */
   readonly xSplits?: (most: number) => number[];
+  /** Where a bare plot of this height has lines across. */
+  readonly ySplits?: (height_px: number) => number[];
   readonly xText?: (value: number) => string;
   /** `step` is the distance to the next number. */
   readonly yText?: (value: number, step: number) => string;
@@ -176,7 +178,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
     ticks: { show: false },
     gap: GAP_PX,
   };
-  const { xSplits, isBare = false } = context;
+  const { xSplits, ySplits, isBare = false } = context;
   return new uPlot(
     {
       width: Math.max(50, root.clientWidth),
@@ -199,11 +201,13 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
         },
         {
           ...axis,
-          show: !isBare,
-          size: (u, texts: readonly string[] | null) => widthPx(u, texts ?? []),
+          size: (u, texts: readonly string[] | null) => (isBare ? 0 : widthPx(u, texts ?? [])),
           space: 18,
           values: (_u, ticks, _axis, _space, step) =>
             ticks.map((tick) => context.yText?.(tick, step) ?? ''),
+          ...(isBare && {
+            splits: (u) => ySplits?.(u.height) ?? [],
+          }),
         },
       ],
       series: [

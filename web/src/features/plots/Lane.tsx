@@ -1,14 +1,15 @@
 // One part of the figure over the time of the time line, with what it is on the left and its range on the right.
 
-import { For, Show, createMemo, type JSX } from 'solid-js';
+import { For, Show, createMemo, createSignal, onMount, type JSX } from 'solid-js';
 import { Curve } from '../../ui/CurvePlot';
 import { LineKey } from '../../ui/LineKey';
 import type { CurveContext } from '../../ui/curve';
 import { clock, fixed } from '../../ui/format';
+import { onSize } from '../../ui/size';
 import type { TimeAxis } from '../../lab/timeAxis';
-import { linesOf, type Part, partRange, rulesOf } from './parts';
+import { linesOf, type Part, partRange, rulesOf, thresholdAbove } from './parts';
 import { nearestIndex, type Sample } from './sample';
-import { timeTicks } from './ticks';
+import { laneTicks, timeTicks } from './ticks';
 
 export function Lane(props: {
   part: Part;
@@ -18,10 +19,21 @@ export function Lane(props: {
   threshold_m: number | undefined;
 }): JSX.Element {
   const { axis } = props;
+  let lane!: HTMLDivElement;
+  const [height_px, setHeight] = createSignal(0);
+  onMount(() => onSize(lane, ({ height }) => setHeight(height)));
   const times = (): Float64Array => props.sample?.columns.sim_time_s ?? new Float64Array();
   const lines = createMemo(() => linesOf(props.part, props.sample));
   const range = createMemo(() => partRange(props.part, lines(), props.threshold_m));
-  const end = (value: number): string => fixed(value, Number.isInteger(value) ? 0 : 1);
+  /** Downwards, with the share of the axis that is above each. */
+  const numbers = createMemo(() => {
+    const [low, high] = range();
+    const ticks = laneTicks([low, high], height_px());
+    return (ticks.length > 0 ? ticks : [low, high]).reverse().map((value, index) => ({
+      above: (high - value) / (high - low),
+      text: `${fixed(value, Number.isInteger(value) ? 0 : 1)}${index > 0 ? '' : ` ${props.part.unit}`}`,
+    }));
+  });
   /** At the cursor, otherwise at the present time. */
   const marked = createMemo(() => {
     const { sample } = props;
@@ -45,14 +57,15 @@ export function Lane(props: {
     xRange: () => [props.sample?.from_s ?? 0, props.sample?.to_s ?? 1],
     yRange: () => range(),
     xSplits: () => timeTicks(axis.span()),
+    ySplits: (height) => laneTicks(range(), height),
     // When sub-controller 1 was active.
     shades: () =>
       (props.sample?.approaches ?? []).map(([from, to]) => ({ from, to, color: 'ink-3' })),
-    rules: createMemo(() => rulesOf(props.part, props.sample, props.threshold_m)),
+    rules: createMemo(() => rulesOf(props.part, props.sample, props.threshold_m, range())),
     onCursor: (index) => axis.point(index === undefined ? undefined : times()[index]),
   };
   return (
-    <div class="lane" data-part={props.part.letter}>
+    <div ref={lane} class="lane" data-part={props.part.letter}>
       <div class="lane-names">
         <Show
           when={props.part.lines.length > 1}
@@ -78,11 +91,13 @@ export function Lane(props: {
       </div>
       <Curve name={words()} context={context} data={[times(), ...lines()]} at={axis.pointed_s()} />
       <div class="lane-range number" aria-hidden="true">
-        <span>
-          {end(range()[1])} {props.part.unit}
-        </span>
-        <span>{end(range()[0])}</span>
+        <For each={numbers()}>
+          {({ above, text }) => <span style={{ '--above': above }}>{text}</span>}
+        </For>
       </div>
+      <Show when={thresholdAbove(props.part, props.threshold_m, range())}>
+        {(words) => <p class="lane-note number">{words()}</p>}
+      </Show>
     </div>
   );
 }

@@ -2,6 +2,7 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import { Ellipsis } from 'lucide';
+import { hasLargeLanes, setLargeLanes } from '../../lab/lanes';
 import { shownWalls } from '../../lab/sight';
 import type { ByHand, Notices, Trial } from '../../lab/slices';
 import { type TimeAxis, type WindowChoice, WINDOWS } from '../../lab/timeAxis';
@@ -67,7 +68,7 @@ export function PlotMenu(props: {
         {...popover.button}
         class="ghost icon-only small"
         aria-label="More about plots"
-        title="Which plots, time window, save"
+        title="Which plots, how large, time window, save"
       >
         <Icon of={Ellipsis} />
       </button>
@@ -100,6 +101,14 @@ export function PlotMenu(props: {
                 )}
               </For>
             </select>
+          </label>
+          <label>
+            <input
+              type="checkbox"
+              checked={hasLargeLanes()}
+              onChange={(event) => setLargeLanes(event.currentTarget.checked)}
+            />
+            Large plots
           </label>
           <div
             class="buttons"

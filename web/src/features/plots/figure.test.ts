@@ -4,10 +4,10 @@ import type { EventMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
 import { eventAt } from '../../lab/testingFacts';
 import { figureSvg } from './figureSvg';
-import { axisRange } from './parts';
+import { axisRange, PARTS, partRange, rulesOf, thresholdAbove } from './parts';
 import { Rotation } from './rotation';
 import { csvOf, nearestIndex, spansOf, takeSample, thinnedIndices } from './sample';
-import { roundTicks } from './ticks';
+import { laneTicks, roundTicks } from './ticks';
 import type { Palette } from '../../ui/palette';
 
 const disturbanceAt = (tick: number): EventMessage => eventAt(tick, 'disturbance');
@@ -99,6 +99,23 @@ describe('the axes', () => {
   it('end on multiples of the grain and span at least two', () => {
     expect(axisRange(0.2, 0.2, 2)).toEqual([-1, 3]);
     expect(axisRange(0, 9.2, 2)).toEqual([0, 10]);
+  });
+
+  it('show the threshold only when the data come near it', () => {
+    const part = PARTS.find(({ threshold }) => threshold);
+    if (!part) throw new Error('no part with a threshold');
+    const shown = (max: number) => {
+      const range = partRange(part, [Float64Array.of(0, max)], 0.1);
+      const rules = rulesOf(part, undefined, 0.1, range).map(({ at }) => at);
+      return [range, rules, thresholdAbove(part, 0.1, range)];
+    };
+    expect(shown(1.5)).toEqual([[0, 2], [], 'T = 10.0 cm above']);
+    expect(shown(6)).toEqual([[0, 13], [10], undefined]);
+  });
+
+  it('have numbers between their ends in a high lane only', () => {
+    expect(laneTicks([0, 2], 40)).toEqual([]);
+    expect(laneTicks([0, 2], 130)).toEqual([0, 0.5, 1, 1.5, 2]);
   });
 
   it('have round ticks', () => {

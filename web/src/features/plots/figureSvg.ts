@@ -12,6 +12,7 @@ import {
   PARTS,
   presentRules,
   rulesOf,
+  thresholdAbove,
 } from './parts';
 import type { Sample } from './sample';
 import type { Vec2 } from '../../lab/geometry';
@@ -84,7 +85,8 @@ function timePart(part: Part, facts: FigureFacts): string {
   const { sample, palette, threshold_m } = facts;
   const times = sample.columns.sim_time_s;
   const values = linesOf(part, sample);
-  const [low, high] = partRange(part, values, threshold_m);
+  const range = partRange(part, values, threshold_m);
+  const [low, high] = range;
   const x = (time_s: number): number =>
     INSET.left + (BOX.width * (time_s - sample.from_s)) / (sample.to_s - sample.from_s);
   const y = (value: number): number => INSET.top + BOX.height * (1 - (value - low) / (high - low));
@@ -109,7 +111,7 @@ function timePart(part: Part, facts: FigureFacts): string {
     const [at, number] = [x(time_s), `${Number(time_s.toFixed(3))} s`];
     tick([at, INSET.top], [at, bottom], [at, bottom + 14], number, 'middle');
   }
-  for (const rule of [...rulesOf(part, sample, threshold_m), ...presentRules(sample)]) {
+  for (const rule of [...rulesOf(part, sample, threshold_m, range), ...presentRules(sample)]) {
     const color = palette[rule.color];
     const dashes = rule.dashed ? 'stroke-dasharray="6 4"' : '';
     if (rule.axis === 'x') {
@@ -119,6 +121,10 @@ function timePart(part: Part, facts: FigureFacts): string {
       out.push(line([INSET.left, at], [right, at], color, dashes));
       out.push(text([INSET.left + 4, at - 3], rule.label, color));
     }
+  }
+  const above = thresholdAbove(part, threshold_m, range);
+  if (above) {
+    out.push(text([right - 4, INSET.top + 12], above, palette.danger, 'text-anchor="end"'));
   }
   part.lines.forEach(({ color }, index) => {
     const points = Array.from(values[index] ?? [], (value, k): Vec2 => [

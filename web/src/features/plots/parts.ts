@@ -2,6 +2,7 @@
 
 import type { Column } from '../../lab/history';
 import type { Rule } from '../../ui/curve';
+import { fixed } from '../../ui/format';
 import type { Sample } from './sample';
 import type { Palette } from '../../ui/palette';
 
@@ -22,7 +23,7 @@ export interface Part {
   readonly lines: readonly Line[];
   /** The axis ends on multiples of this and spans at least two of them, in shown units. */
   readonly grain: number;
-  /** Whether the axis starts at zero and shows the threshold of the switching law. */
+  /** Whether the axis starts at zero and shows the threshold of the switching law when the data come near it. */
   readonly threshold: boolean;
 }
 
@@ -66,6 +67,7 @@ export const PARTS: readonly Part[] = [
     ...ERROR,
     letter: 'e',
     title: 'Distance e, true',
+    grain: 1,
     threshold: true,
     lines: [{ column: 'error_m', label: 'e', color: 'ink' }],
   },
@@ -85,7 +87,10 @@ export function axisRange(min: number, max: number, grain: number): [number, num
   return [low, high];
 }
 
-/** Ends of a part's axis, in shown units; `threshold_m` is part of what an axis with a threshold shows. */
+/** Of the threshold: data above it bring the threshold on the axis, with some room. */
+const [NEAR, ROOM] = [0.5, 1.25];
+
+/** Ends of a part's axis, in shown units. */
 export function partRange(
   part: Part,
   lines: readonly Float64Array[],
@@ -100,7 +105,21 @@ export function partRange(
   }
   if (min > max) [min, max] = [0, 0];
   if (!part.threshold) return axisRange(min, max, part.grain);
-  return axisRange(0, Math.max(max, (threshold_m ?? 0) * part.scale * 1.25), part.grain);
+  const threshold = (threshold_m ?? 0) * part.scale;
+  const least = max > NEAR * threshold ? ROOM * threshold : 2 * part.grain;
+  return axisRange(0, Math.max(max, least), part.grain);
+}
+
+/** What is said of a threshold above the axis. */
+export function thresholdAbove(
+  part: Part,
+  threshold_m: number | undefined,
+  [, high]: readonly [number, number],
+): string | undefined {
+  const threshold = (threshold_m ?? 0) * part.scale;
+  return part.threshold && threshold > high
+    ? `T = ${fixed(threshold, 1)} ${part.unit} above`
+    : undefined;
 }
 
 /** Values of each line, in shown units. */
@@ -122,18 +141,19 @@ export const presentRules = (sample: Sample): Rule[] =>
     ? [{ ...RULE, at: sample.at_s, color: 'ink', isStrong: true }]
     : [];
 
-/** Disturbances and the threshold. */
+/** Disturbances, and the threshold if the axis has it. */
 export function rulesOf(
   part: Part,
   sample: Sample | undefined,
   threshold_m: number | undefined,
+  range: readonly [number, number],
 ): Rule[] {
   const rules: Rule[] = (sample?.struck ?? []).map(({ time_s }) => ({
     ...RULE,
     at: time_s,
     color: 'you',
   }));
-  if (part.threshold && threshold_m !== undefined) {
+  if (part.threshold && threshold_m !== undefined && !thresholdAbove(part, threshold_m, range)) {
     const at = threshold_m * part.scale;
     rules.push({ axis: 'y', at, label: 'T', color: 'danger', dashed: true });
   }
