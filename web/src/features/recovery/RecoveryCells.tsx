@@ -155,7 +155,8 @@ export function Cells(props: {
         {(cell) => <p class="hint">Your last drag ended here: {cellWords(cell())}.</p>}
       </Show>
       <p class="hint">
-        <Show when={basin()?.area_m2}>
+        {/* It is the share of the tried places, taken for the whole map: only right when all are tried. */}
+        <Show when={props.report.stage === 'done' && basin()?.area_m2}>
           {(area_m2) => <>{squareCentimetres(area_m2())} around the goal. </>}
         </Show>
         A cell shows what happened most often. Press one to see its trials and why they failed.

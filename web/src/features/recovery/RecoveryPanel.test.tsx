@@ -132,6 +132,28 @@ it('forgets what was chosen when the map changes behind a closed tab', async () 
   await expect.element(page.getByTestId('recovery-cell')).not.toBeInTheDocument();
 });
 
+it('says how large the area is only when all of the map is tried', async () => {
+  const basin = {
+    ...{ controller: 'rl', trials: 10, delivered: 10, share: 1, share95: [0.72, 1] },
+    ...{ area_m2: 0.0552, area95_m2: [0.04, 0.0552] },
+  } satisfies RecoveryReport['basins'][number];
+  const reports = (['cancelled', 'done'] as const).map((stage, index) =>
+    reportOf({ id: `recovery-${index + 1}`, map: 'posts', stage, basins: [basin] }),
+  );
+  const { lab, server } = fakeLab(
+    Object.fromEntries(reports.map((one) => [`GET /api/recoveries/${one.id}`, () => one])),
+  );
+  server.lists({ recoveries: reports });
+  server.scene({ map: 'posts' });
+  show(() => <RecoveryPanel lab={lab} />);
+  const area = page.getByText('552 cm²');
+  await expect.element(area).toBeVisible();
+  await page.getByLabelText('Recovery map', { exact: true }).selectOptions('recovery-1');
+  await expect.element(page.getByTestId('recovery-progress')).toHaveTextContent('cancelled');
+  await expect.element(page.getByText('RL still delivers in 100 %')).toBeVisible();
+  await expect.element(area).not.toBeInTheDocument();
+});
+
 it('shows each controller or the difference of two, and goes from cell to cell by keys', async () => {
   const cell = (number: number, controller: ControllerName, delivered: number): RecoveryCell => ({
     ...{ cell: number, controller, delivered, late: 0, lost: 2 - delivered, repeats: 2 },
