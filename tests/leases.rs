@@ -99,6 +99,30 @@ async fn a_command_of_an_earlier_lease_is_refused_and_changes_nothing() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn an_operator_keeps_control() {
+    let lab = Laboratory::open().await;
+    let mut first = lab.browser().await;
+    first.until("hello", |m| m["role"] == "operator").await;
+    let mut second = lab.browser().await;
+    second.until("hello", |m| m["role"] == "viewer").await;
+    second.send(json!({"type": "take_control"})).await;
+    let asks = second.until("its request", |m| m["asks"] == true).await;
+    assert!(asks["answer_within_s"].as_f64() > Some(25.0), "{asks}");
+    first.until("asked", |m| m["asked"] == true).await;
+    first.send(json!({"type": "keep_control"})).await;
+    first.until("no request", |m| m["asked"] == false).await;
+    let over = second.until("the end of its request", |m| m["asks"] == false).await;
+    assert_eq!((&over["role"], &over["answer_within_s"]), (&json!("viewer"), &Value::Null));
+    second.send(json!({"type": "take_control"})).await;
+    let error = second.error().await;
+    let wait_s = error["values"]["wait_s"].as_u64();
+    assert!(error["code"] == "kept" && (50..=60).contains(&wait_s.unwrap()), "{error}");
+    second.send(json!({"type": "keep_control"})).await;
+    assert_eq!(second.error().await["code"], "not_operator");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_silent_hand_is_released_and_the_session_pauses() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;

@@ -41,6 +41,7 @@ pub enum RefusalCode {
     // The message.
     Malformed,
     NotOperator,
+    Kept,
     StaleEpoch,
     OutOfRange,
     NotFinite,

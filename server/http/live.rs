@@ -300,7 +300,7 @@ impl Connection {
     async fn take(&mut self, message: ClientMessage, epoch: Option<u64>) -> Result<Taken, Refusal> {
         let own = self.seat.own;
         match message {
-            ClientMessage::TakeControl {} => self.hub.reseat(|seats, now| seats.take(own, now)),
+            ClientMessage::TakeControl {} => self.hub.reseat(|seats, now| seats.take(own, now))?,
             ClientMessage::WatchTraining { training } => self.catalog.watch(&self.server, training)?,
             ClientMessage::ReleaseControl {} => {
                 self.hand.release().await;
@@ -331,6 +331,10 @@ impl Connection {
             _ => None,
         };
         match message {
+            ClientMessage::KeepControl {} => {
+                self.hub.reseat(Seats::keep);
+                return Ok(Taken::Done);
+            }
             ClientMessage::Compare { tick, controllers } => {
                 self.hub.compare(tick, &controllers).await?;
             }

@@ -167,6 +167,8 @@ pub enum ClientMessage {
     },
     /// Requests control.
     TakeControl {},
+    /// Ends the request of another browser. It can ask again after a minute.
+    KeepControl {},
     ReleaseControl {},
 }
 
@@ -224,6 +226,7 @@ impl ClientMessage {
             | Self::DriveRobot { .. }
             | Self::WatchTraining { .. }
             | Self::TakeControl {}
+            | Self::KeepControl {}
             | Self::ReleaseControl {} => {
                 return None;
             }

@@ -92,6 +92,10 @@ pub struct Hello {
     pub operator_present: bool,
     /// Whether this browser is the operator and another one requests control.
     pub asked: bool,
+    /// Whether this browser requests control.
+    pub asks: bool,
+    /// During a request: seconds until the operator loses control if it does nothing. Each of its commands begins them again.
+    pub answer_within_s: Option<f64>,
     /// Graphics adapter that renders the camera.
     pub adapter: String,
     /// When this server opened the session. It changes when the server was restarted or the session opened again.

@@ -80,6 +80,7 @@ fn messages() -> Vec<ClientMessage> {
         ClientMessage::Rewind { tick: 31 },
         ClientMessage::Compare { tick: 31, controllers: ControllerName::ALL.into() },
         ClientMessage::TakeControl {},
+        ClientMessage::KeepControl {},
         ClientMessage::ReleaseControl {},
     ]
 }

@@ -4,7 +4,6 @@ import { type Lab, expect, test } from './fixtures';
 import { distance } from './support/table';
 import { until } from './support/wait';
 
-const REQUEST_SENT = /Request sent/i;
 const CONTROL_REQUESTED = /asks for control/i;
 
 const freePointNearBead = async (lab: Lab) => lab.freePoints(await lab.bead(), 0.1, 0.3)[0];
@@ -36,7 +35,7 @@ test('passes released control to the viewer that requested it', async ({ lab, op
   await viewer.isRole('viewer');
   // A request is granted when the operator releases control.
   await viewer.button('Take control').click();
-  await expect(viewer.notice('session').getByText(REQUEST_SENT)).toBeVisible();
+  await expect(viewer.page.getByText(/It is yours in \d+ s/)).toBeVisible();
   const give = lab.button('Give control');
   await give.waitFor();
   await lab.panel('Story');
@@ -51,9 +50,12 @@ test('passes released control to the viewer that requested it', async ({ lab, op
   await lab.button('Take control').click();
   await viewer.button('Keep').click();
   await expect(viewer.button('Give control')).toHaveCount(0);
+  await expect(lab.notice('session')).toContainText('Your request for control is over.');
+  await lab.button('Take control').click();
+  await expect(lab.notice('session')).toContainText('The operator keeps control.');
   await viewer.isRole('operator');
   await viewer.releaseControl();
-  await lab.isRole('operator');
+  await lab.takeControl();
 
   // A viewer can take free control.
   await lab.releaseControl();

@@ -213,13 +213,17 @@ impl Hub {
         self.seats.subscribe()
     }
 
-    /// Changes the seats and informs the browsers if the operator or a pending request changes.
+    /// Changes the seats and informs the browsers if the operator, a pending request or the second of its end changes.
     pub fn reseat<T>(&self, change: impl FnOnce(&mut Seats, Instant) -> T) -> T {
         let mut done = None;
         self.seats.send_if_modified(|seats| {
-            let before = (seats.epoch, seats.asking);
-            done = Some(change(seats, Instant::now()));
-            before != (seats.epoch, seats.asking)
+            let now = Instant::now();
+            let told = |seats: &Seats| {
+                (seats.epoch, seats.asking, seats.answers_within(now).map(|left| left.as_secs_f64().round() as u64))
+            };
+            let before = told(seats);
+            done = Some(change(seats, now));
+            before != told(seats)
         });
         self.touch();
         done.expect("the change was made")
@@ -247,6 +251,8 @@ impl Hub {
             epoch: seats.epoch,
             operator_present: seats.operator.is_some(),
             asked: operates && seats.asking.is_some(),
+            asks: seats.asking == Some(connection),
+            answer_within_s: seats.answers_within(Instant::now()).map(|left| left.as_secs_f64()),
             adapter: self.gpu.adapter_name().to_owned(),
             opened: self.opened.to_string(),
             resumed_s: self.session.resumed().tick.map(|tick| tick as f64 * SERVO_PERIOD_S),

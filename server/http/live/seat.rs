@@ -5,9 +5,11 @@ use std::sync::Arc;
 use axum::http::StatusCode;
 
 use super::hub::Hub;
-use super::seats::Seats;
+use super::seats::{KeptFor, Seats};
 use crate::http::access::Token;
 use crate::http::problem::Problem;
+use crate::protocol::Refusal;
+use ferry_core::facts::RefusalCode;
 
 /// A place among a session's browsers. Dropping it frees the place, also if the upgrade fails.
 pub struct Seat {
@@ -32,6 +34,14 @@ pub fn key(known: Option<String>) -> Result<String, Problem> {
             Err(Problem::new(StatusCode::BAD_REQUEST, "malformed", detail).field("seat"))
         }
         None => Token::generate().map_err(Problem::internal),
+    }
+}
+
+impl From<KeptFor> for Refusal {
+    fn from(KeptFor(left): KeptFor) -> Self {
+        let wait_s = left.as_secs() + 1;
+        Self::new(RefusalCode::Kept, &format!("the operator keeps control; ask again in {wait_s} s"), None)
+            .with("wait_s", wait_s)
     }
 }
 

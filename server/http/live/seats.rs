@@ -8,8 +8,11 @@ use tokio::time::Instant;
 const VIEWERS: usize = 128;
 /// An operator who does nothing for this long after a request for control loses the seat.
 const ANSWER_WITHIN: Duration = Duration::from_secs(30);
+/// An operator who keeps control is not asked again for this long.
+const KEEP_FOR: Duration = Duration::from_secs(60);
 
-/// The operator's seat is a lease: it passes on when its holder leaves, releases control, or does not answer a request.
+/// The operator's seat is a lease: it passes on when its holder leaves, releases control, or does not answer a request. The
+/// holder may keep it, which ends a request.
 #[derive(Clone, Copy, Debug)]
 pub struct Seats {
     /// Connection of the operator.
@@ -24,17 +27,24 @@ pub struct Seats {
     /// Time of the operator's last command, or of the start of the lease.
     commanded: Instant,
     asked: Instant,
+    /// When the operator kept control, if a request came since the start of the lease.
+    kept: Option<Instant>,
 }
+
+/// The operator has kept control, and is asked again only after this time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KeptFor(pub Duration);
 
 impl Seats {
     pub fn new(now: Instant) -> Self {
-        Self { operator: None, epoch: 0, asking: None, viewers: 0, next: 0, commanded: now, asked: now }
+        Self { operator: None, epoch: 0, asking: None, viewers: 0, next: 0, commanded: now, asked: now, kept: None }
     }
 
     fn seat(&mut self, operator: Option<u64>, now: Instant) {
         self.operator = operator;
         self.epoch += 1;
         self.commanded = now;
+        self.kept = None;
     }
 
     /// Adds a connection, if there is room; it becomes the operator if the seat is free.
@@ -68,11 +78,18 @@ impl Seats {
     }
 
     /// Takes the operator's seat if it is free, else requests it from its holder.
-    pub fn take(&mut self, connection: u64, now: Instant) {
+    ///
+    /// # Errors
+    /// The holder has just kept it.
+    pub fn take(&mut self, connection: u64, now: Instant) -> Result<(), KeptFor> {
         match self.operator {
             Some(operator) if operator == connection => {}
             Some(_) if self.asking == Some(connection) => {}
             Some(_) => {
+                let since = self.kept.map(|kept| now.saturating_duration_since(kept));
+                if let Some(left) = since.and_then(|since| KEEP_FOR.checked_sub(since)) {
+                    return Err(KeptFor(left));
+                }
                 // A new request keeps the start of the wait. Otherwise two browsers that request by turns would wait
                 // forever.
                 if self.asking.replace(connection).is_none() {
@@ -81,6 +98,20 @@ impl Seats {
             }
             None => self.seat(Some(connection), now),
         }
+        Ok(())
+    }
+
+    /// The operator keeps control, which ends a request.
+    pub fn keep(&mut self, now: Instant) {
+        if self.asking.take().is_some() {
+            self.kept = Some(now);
+        }
+    }
+
+    /// Time until the operator loses the seat if it does nothing; `None` without a request.
+    pub fn answers_within(&self, now: Instant) -> Option<Duration> {
+        let waits = now.saturating_duration_since(self.asked.max(self.commanded));
+        self.asking.map(|_| ANSWER_WITHIN.saturating_sub(waits))
     }
 
     /// Notes a command of the operator.
@@ -90,8 +121,7 @@ impl Seats {
 
     /// Gives the operator's seat to the requesting client if the operator has not reacted to the request.
     pub fn take_if_unanswered(&mut self, connection: u64, now: Instant) {
-        let waits = now.saturating_duration_since(self.asked.max(self.commanded));
-        if self.asking == Some(connection) && waits >= ANSWER_WITHIN {
+        if self.asking == Some(connection) && self.answers_within(now) == Some(Duration::ZERO) {
             self.asking = None;
             self.seat(Some(connection), now);
         }
@@ -108,16 +138,16 @@ mod tests {
         let mut seats = Seats::new(now);
         let [one, two, three] = [(); 3].map(|()| seats.join(now).unwrap());
         assert_eq!((seats.operator, seats.epoch), (Some(one), 1));
-        seats.take(two, now);
-        seats.take(three, now);
+        seats.take(two, now).unwrap();
+        seats.take(three, now).unwrap();
         assert_eq!((seats.operator, seats.asking), (Some(one), Some(three)));
         seats.leave(one, now);
         assert_eq!((seats.operator, seats.asking, seats.epoch), (Some(three), None, 2));
         seats.release(three, now);
         assert_eq!((seats.operator, seats.epoch), (None, 3));
-        seats.take(two, now);
+        seats.take(two, now).unwrap();
         assert_eq!((seats.operator, seats.epoch, seats.viewers), (Some(two), 4, 2));
-        seats.take(two, now);
+        seats.take(two, now).unwrap();
         assert_eq!(seats.epoch, 4, "the browser has the seat already");
     }
 
@@ -129,10 +159,10 @@ mod tests {
         let [one, two] = [(); 2].map(|()| seats.join(start).unwrap());
         seats.take_if_unanswered(two, later(1000));
         assert_eq!(seats.operator, Some(one), "no other browser requested the seat");
-        seats.take(two, later(1000));
+        seats.take(two, later(1000)).unwrap();
         seats.command(later(1020));
         seats.take_if_unanswered(two, later(1049));
-        seats.take(two, later(1049));
+        seats.take(two, later(1049)).unwrap();
         seats.take_if_unanswered(one, later(2000));
         assert_eq!(seats.operator, Some(one));
         seats.take_if_unanswered(two, later(1050));
@@ -145,12 +175,36 @@ mod tests {
         let later = |seconds| start + Duration::from_secs(seconds);
         let mut seats = Seats::new(start);
         let [_, two, three] = [(); 3].map(|()| seats.join(start).unwrap());
-        seats.take(two, later(100));
-        seats.take(three, later(120));
+        seats.take(two, later(100)).unwrap();
+        seats.take(three, later(120)).unwrap();
         seats.take_if_unanswered(three, later(129));
         assert_ne!(seats.operator, Some(three));
         seats.take_if_unanswered(three, later(130));
         assert_eq!(seats.operator, Some(three));
+    }
+
+    #[test]
+    fn an_operator_who_keeps_control_is_not_asked_for_a_minute() {
+        let start = Instant::now();
+        let later = |seconds| start + Duration::from_secs(seconds);
+        let mut seats = Seats::new(start);
+        let [one, two] = [(); 2].map(|()| seats.join(start).unwrap());
+        seats.keep(start);
+        seats.take(two, later(100)).unwrap();
+        assert_eq!(seats.answers_within(later(110)), Some(Duration::from_secs(20)));
+        seats.keep(later(110));
+        assert_eq!((seats.operator, seats.asking, seats.answers_within(later(111))), (Some(one), None, None));
+        assert_eq!(seats.take(two, later(150)), Err(KeptFor(Duration::from_secs(20))));
+        seats.take_if_unanswered(two, later(169));
+        assert_eq!(seats.operator, Some(one));
+        seats.take(two, later(171)).unwrap();
+        assert_eq!(seats.asking, Some(two));
+        // It belongs to the lease.
+        seats.keep(later(172));
+        seats.release(one, later(173));
+        seats.take(one, later(174)).unwrap();
+        seats.take(two, later(174)).unwrap();
+        assert_eq!((seats.operator, seats.asking), (Some(one), Some(two)));
     }
 
     #[test]

@@ -1,26 +1,18 @@
 // The dock: plots, the time line, and what acts on time: run, who steers, disturb.
 
-import {
-  Match,
-  Show,
-  Switch,
-  createEffect,
-  createMemo,
-  createSignal,
-  on,
-  type JSX,
-} from 'solid-js';
-import { Activity, Eye, HandGrab, Radio } from 'lucide';
+import { Match, Show, Switch, type JSX } from 'solid-js';
+import { Activity, HandGrab, Radio } from 'lucide';
 import { StageBar } from '../features/challenge/StageBar';
 import { SteeredBy } from '../features/controller/SteeredBy';
 import { Timeline } from '../features/playback/Timeline';
 import { Transport } from '../features/playback/Transport';
+import { Handover } from '../features/handover/Handover';
+import { Watching } from '../features/handover/Watching';
 import { KeptRuns } from '../features/runs/KeptRuns';
 import { hasLanes, hasLargeLanes, toggleLanes } from '../lab/lanes';
 import { lazyPanel } from '../lab/panel';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Lab } from '../lab/slices';
-import { takeControl } from '../lab/takeControl';
 import { createTimeAxis, type TimeAxis } from '../lab/timeAxis';
 import type { ComparisonMessage } from '../net/protocol.gen';
 import { clock } from '../ui/format';
@@ -78,33 +70,6 @@ function Cursors(props: { axis: TimeAxis }): JSX.Element {
   );
 }
 
-/** Another browser asks for control: the operator gives it or keeps it. */
-function Asked(props: { lab: Lab }): JSX.Element {
-  const { lab } = props;
-  const [isKept, setKept] = createSignal(false);
-  const isAsked = createMemo(() => lab.hello()?.role === 'operator' && lab.hello()?.asked === true);
-  createEffect(on(isAsked, () => setKept(false)));
-  return (
-    <div class="notices" role="alert">
-      <Show when={isAsked() && !isKept()}>
-        <p class="notice">
-          <span>Another browser asks for control.</span>
-          <button
-            type="button"
-            class="small primary"
-            onClick={() => void lab.send('session', { type: 'release_control' })}
-          >
-            Give control
-          </button>
-          <button type="button" class="small ghost" onClick={() => setKept(true)}>
-            Keep
-          </button>
-        </p>
-      </Show>
-    </div>
-  );
-}
-
 function PlotsButton(): JSX.Element {
   return (
     <button
@@ -117,25 +82,6 @@ function PlotsButton(): JSX.Element {
       <Icon of={Activity} />
       <span>Plots</span>
     </button>
-  );
-}
-
-/** In place of the transport: why a viewer cannot act, and what can be done. */
-function Watching(props: { lab: Lab }): JSX.Element {
-  return (
-    <div class="transport watching">
-      <p>
-        <Icon of={Eye} />
-        <strong>You are watching.</strong>
-        <span>Another browser steers. Look around freely.</span>
-      </p>
-      <div class="dock-tools">
-        <PlotsButton />
-      </div>
-      <button type="button" class="primary" onClick={() => void takeControl(props.lab)}>
-        Take control
-      </button>
-    </div>
   );
 }
 
@@ -154,7 +100,7 @@ export function Dock(props: { lab: Lab }): JSX.Element {
         <PlaceNotice lab={lab} place="workspace" />
         <PlaceNotice lab={lab} place="playback" />
         <PlaceNotice lab={lab} place="controller" />
-        <Asked lab={lab} />
+        <Handover lab={lab} />
       </div>
       <div class="times">
         <Show when={hasLanes()}>
@@ -180,7 +126,14 @@ export function Dock(props: { lab: Lab }): JSX.Element {
           <Live lab={lab} />
         </div>
       </div>
-      <Show when={!watches()} fallback={<Watching lab={lab} />}>
+      <Show
+        when={!watches()}
+        fallback={
+          <Watching lab={lab}>
+            <PlotsButton />
+          </Watching>
+        }
+      >
         <div class="transport">
           <Transport lab={lab} />
           <Switch fallback={<SteeredBy lab={lab} />}>

@@ -2,7 +2,6 @@
 
 import { Show, createEffect, onCleanup, type JSX } from 'solid-js';
 import { Ellipsis, LogOut, Presentation } from 'lucide';
-import { takeControl } from '../lab/takeControl';
 import type { Addressed, Notices, Session, Trial } from '../lab/slices';
 import { addressOf, pathOf } from '../net/base';
 import type { RecordingFact } from '../net/protocol.gen';
@@ -53,7 +52,7 @@ export function MoreMenu(props: { lab: Session & Trial & Notices & Addressed }):
           class="primary"
           onClick={() => {
             if (isOperator()) void lab.send('session', { type: 'release_control' });
-            else void takeControl(lab);
+            else void lab.send('session', { type: 'take_control' });
           }}
         >
           {isOperator() ? 'Give control' : 'Take control'}

@@ -36,6 +36,8 @@ describe('announcements', () => {
       epoch: 1,
       operator_present: true,
       asked: false,
+      asks: false,
+      answer_within_s: null,
       adapter: '',
       opened: 'noon',
       resumed_s: null,

@@ -33,6 +33,8 @@ describe('messages', () => {
       epoch: 1,
       operator_present: true,
       asked: false,
+      asks: false,
+      answer_within_s: null,
       adapter: '',
       opened: 'noon',
       resumed_s: null,

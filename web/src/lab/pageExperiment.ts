@@ -13,7 +13,6 @@ import { drawnMap } from './drawingLink';
 import { knownBy } from './known';
 import { listen } from '../ui/listen';
 import type { Notices, Session, Trial } from './slices';
-import { takeControl } from './takeControl';
 import { reasonText } from '../net/problem';
 
 export type PageExperiment = ReturnType<typeof createPageExperiment>;
@@ -96,7 +95,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     load: () => {
       setWanted(true);
       if (lab.canOperate()) return;
-      void takeControl(lab);
+      void lab.send('session', { type: 'take_control' });
     },
     /** Loads a link from this page, such as a preset. */
     open: async (link: string) => {

@@ -37,6 +37,8 @@ const HELLO: Hello = {
   epoch: 1,
   operator_present: true,
   asked: false,
+  asks: false,
+  answer_within_s: null,
   adapter: '',
   opened: '',
   resumed_s: null,

@@ -21,6 +21,7 @@ const inside = ({ detail }: Refused): string => detail;
 const SENTENCES: Readonly<Record<RefusalCode, (one: Refused) => string>> = {
   malformed: inside,
   not_operator: () => 'Another browser has control. Take control first.',
+  kept: ({ values }) => `The operator keeps control. Ask again in ${text(values.wait_s)} s.`,
   stale_epoch: () => 'Another browser took control meanwhile.',
   out_of_range: range,
   not_finite: (one) => `${what(one)} must be a finite number.`,

@@ -70,7 +70,7 @@ export type Resumption = "goes_on" | "started_over" | "started_over_with_runs";
 /**
  * Why a command was refused, for programs. `values` has what it is about.
  */
-export type RefusalCode = "malformed" | "not_operator" | "stale_epoch" | "out_of_range" | "not_finite" | "long_reason" | "outside_workspace" | "in_wall" | "out_of_reach" | "parameter_out_of_range" | "disturbance_out_of_range" | "not_you" | "not_robot" | "not_program" | "joints_refused" | "hand_silent" | "too_many_wait" | "map_refused" | "unknown_policy" | "bad_script" | "trial_failed" | "bad_case" | "other_drawing" | "no_challenge" | "no_run" | "nothing_carried" | "forgotten" | "no_program" | "no_try" | "no_training" | "no_goal" | "no_robot" | "robot_refused" | "busy" | "unanswered" | "ended";
+export type RefusalCode = "malformed" | "not_operator" | "kept" | "stale_epoch" | "out_of_range" | "not_finite" | "long_reason" | "outside_workspace" | "in_wall" | "out_of_reach" | "parameter_out_of_range" | "disturbance_out_of_range" | "not_you" | "not_robot" | "not_program" | "joints_refused" | "hand_silent" | "too_many_wait" | "map_refused" | "unknown_policy" | "bad_script" | "trial_failed" | "bad_case" | "other_drawing" | "no_challenge" | "no_run" | "nothing_carried" | "forgotten" | "no_program" | "no_try" | "no_training" | "no_goal" | "no_robot" | "robot_refused" | "busy" | "unanswered" | "ended";
 
 /**
  * Whether a trial is recorded. `detail` is what the system says, in English.

@@ -40,7 +40,7 @@ press?: number, } | { "type": "watch_training",
 /**
  * Its id.
  */
-training: string | null, } | { "type": "take_control", } | { "type": "release_control", };
+training: string | null, } | { "type": "take_control", } | { "type": "keep_control", } | { "type": "release_control", };
 
 /**
  * Role of a browser.
@@ -94,6 +94,14 @@ operator_present: boolean,
  * Whether this browser is the operator and another one requests control.
  */
 asked: boolean, 
+/**
+ * Whether this browser requests control.
+ */
+asks: boolean, 
+/**
+ * During a request: seconds until the operator loses control if it does nothing. Each of its commands begins them again.
+ */
+answer_within_s: number | null, 
 /**
  * Graphics adapter that renders the camera.
  */

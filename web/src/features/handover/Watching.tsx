@@ -1,0 +1,48 @@
+// In place of the transport: why a viewer cannot act, and what can be done.
+
+import { Eye } from 'lucide';
+import { Show, type JSX } from 'solid-js';
+import type { Session } from '../../lab/slices';
+import { Icon } from '../../ui/Icon';
+import { createCountdown } from './countdown';
+
+export function Watching(props: { lab: Session; children: JSX.Element }): JSX.Element {
+  const { lab } = props;
+  const left_s = createCountdown(lab);
+  return (
+    <div class="transport watching">
+      <p>
+        <Icon of={Eye} />
+        <Show
+          when={lab.hello()?.asks}
+          fallback={
+            <>
+              <strong>You are watching.</strong>
+              <span>Another browser steers. Look around freely.</span>
+            </>
+          }
+        >
+          <strong>You asked for control.</strong>
+          <span class="number">It is yours in {left_s()} s, unless the operator acts.</span>
+        </Show>
+      </p>
+      <div class="dock-tools">{props.children}</div>
+      <Show
+        when={lab.hello()?.asks}
+        fallback={
+          <button
+            type="button"
+            class="primary"
+            onClick={() => void lab.send('session', { type: 'take_control' })}
+          >
+            Take control
+          </button>
+        }
+      >
+        <button type="button" onClick={() => void lab.send('session', { type: 'release_control' })}>
+          Withdraw
+        </button>
+      </Show>
+    </div>
+  );
+}
