@@ -53,18 +53,19 @@ it('sends what is chosen, and shows why the server refuses it', async () => {
   await expect.element(start).toHaveTextContent('Map from 2.0 s');
   await start.click();
   await expect.element(refused).toHaveTextContent('no goal is set');
-  expect(query).toMatchObject({ session: 'main', tick: 250, kind: 'place', grid: 24 });
+  expect(query).toMatchObject({ session: 'main', tick: 250, kind: 'place', grid: 16, repeats: 1 });
 
   const columns = page.getByLabelText('Columns');
-  await expect
-    .element(page.getByTestId('recovery-size'))
-    .toHaveTextContent(/^At most \d+ trials\.$/);
+  // In the foot of the panel, with the button. Nothing is measured yet, so no time is said.
+  const size = page.getByTestId('recovery-size');
+  await expect.element(size).toHaveTextContent(/^At most \d+ trials$/);
+  expect(size.element().parentElement).toBe(start.element().parentElement);
   await columns.fill('3');
   await start.click();
   await expect
     .element(columns)
     .toHaveAccessibleDescription('“3” must be a whole number from 4 to 96.');
-  expect(query).toMatchObject({ grid: 24 });
+  expect(query).toMatchObject({ grid: 16 });
   await columns.fill('96');
   await page.getByLabelText('Try RL').click();
   await start.click();

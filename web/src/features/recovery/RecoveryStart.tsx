@@ -57,9 +57,7 @@ export function RecoveryStart(props: {
   const size = (): string => {
     const count = `${draft().kind === 'place' ? 'At most ' : ''}${counted(trials(), 'trial')}`;
     const each_s = trial_s();
-    return each_s === undefined
-      ? `${count}.`
-      : `${count}: about ${roughly(trials() * each_s)} at the speed of the last map.`;
+    return each_s === undefined ? count : `${count}, about ${roughly(trials() * each_s)}`;
   };
   const start = async (): Promise<void> => {
     const [tick, map] = [lab.state()?.tick, lab.scene()?.map];
@@ -89,17 +87,24 @@ export function RecoveryStart(props: {
       buttonTitle="Tries each disturbance from the shown moment under each controller, beside the session"
       disabled={!lab.canOperate()}
       beside={
-        <For each={props.report && FILES}>
-          {([ending, name]) => (
-            <a
-              class="button small ghost"
-              href={addressOf(`/api/recoveries/${props.report?.id ?? ''}/map.${ending}`)}
-              download=""
-            >
-              {name}
-            </a>
-          )}
-        </For>
+        <>
+          <Show when={trials() > 0}>
+            <span class="hint" data-testid="recovery-size">
+              {size()}
+            </span>
+          </Show>
+          <For each={props.report && FILES}>
+            {([ending, name]) => (
+              <a
+                class="button small ghost"
+                href={addressOf(`/api/recoveries/${props.report?.id ?? ''}/map.${ending}`)}
+                download=""
+              >
+                {name}
+              </a>
+            )}
+          </For>
+        </>
       }
     >
       <div class="form-two">
@@ -110,11 +115,6 @@ export function RecoveryStart(props: {
         <NumberField {...edits('seed')} label="Noise seed" min={0} isWhole />
       </div>
       <CheckField {...field} verb="Try" />
-      <Show when={trials() > 0}>
-        <p class="hint" data-testid="recovery-size">
-          {size()}
-        </p>
-      </Show>
     </Form>
   );
 }
