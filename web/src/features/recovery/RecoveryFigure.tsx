@@ -3,6 +3,7 @@
 import { For, Show, type JSX } from 'solid-js';
 import type { Polygon, Rect, RecoveryReport } from '../../net/protocol.gen';
 import { ARROWS } from '../../plan/gesture';
+import { ForKeyed } from '../../ui/ForKeyed';
 import type { Look } from './cells';
 import { mm } from './cells';
 import { drawingOf, nextShape } from './shapes';
@@ -74,27 +75,28 @@ export function RecoveryFigure(props: {
       <Show when={props.report.kind === 'place'}>
         <path class="wall" fill-rule="evenodd" d={wallsPath(props.walls)} />
       </Show>
-      <For each={drawing().shapes}>
+      {/* Each report draws them again. A press that began on one must end on the same. */}
+      <ForKeyed each={drawing().shapes} by={({ cell }) => String(cell)}>
         {(shape) => {
-          const look = (): Look | undefined => props.looks.get(shape.cell);
+          const look = (): Look | undefined => props.looks.get(shape().cell);
           return (
             <path
-              d={shape.path}
+              d={shape().path}
               class="cell"
-              data-cell={shape.cell}
+              data-cell={shape().cell}
               data-kind={look()?.kind}
               classList={{
-                chosen: props.chosen === shape.cell,
-                dropped: props.dropped === shape.cell,
+                chosen: props.chosen === shape().cell,
+                dropped: props.dropped === shape().cell,
               }}
               fill-opacity={FAINTEST + (1 - FAINTEST) * (look()?.strength ?? 0)}
               onClick={() => {
-                props.onChoose?.(shape.cell);
+                props.onChoose?.(shape().cell);
               }}
             />
           );
         }}
-      </For>
+      </ForKeyed>
       <For each={props.onChoose && drawing().labels}>
         {({ text, at: [x, y] }) => (
           <text class="axis number" x={x} y={y} aria-hidden="true">

@@ -35,6 +35,12 @@ const reportOf = (change: Partial<RecoveryReport> = {}): RecoveryReport => ({
   ...change,
 });
 
+const cellOf = (number: number, controller: ControllerName, delivered: number): RecoveryCell => ({
+  ...{ cell: number, controller, delivered, late: 0, lost: 2 - delivered, repeats: 2 },
+  ...{ x_m: 0.02 * number, y_m: -0.35, size_m: 0.02, direction_rad: null, strength: null },
+  ...{ at_s: null, delivered_wilson95: [0, 1], time_s_median: null, why: null },
+});
+
 it('sends what is chosen, and shows why the server refuses it', async () => {
   let query: RecoveryQuery | undefined;
   const { lab, server } = fakeLab({
@@ -97,13 +103,8 @@ it('shows a recovery map of another map only when it is chosen, and says so', as
 });
 
 it('forgets what was chosen when the map changes behind a closed tab', async () => {
-  const cell: RecoveryCell = {
-    ...{ cell: 0, controller: 'rl', delivered: 2, late: 0, lost: 0, repeats: 2 },
-    ...{ x_m: 0.02, y_m: -0.35, size_m: 0.02, direction_rad: null, strength: null },
-    ...{ at_s: null, delivered_wilson95: [0, 1], time_s_median: null, why: null },
-  };
-  const there = reportOf({ cells: [cell] });
-  const here = reportOf({ id: 'recovery-2', map: 'posts', cells: [cell] });
+  const there = reportOf({ cells: [cellOf(0, 'rl', 2)] });
+  const here = reportOf({ id: 'recovery-2', map: 'posts', cells: [cellOf(0, 'rl', 2)] });
   const { lab, server } = fakeLab({
     'GET /api/recoveries/recovery-1': () => there,
     'GET /api/recoveries/recovery-2': () => here,
@@ -133,6 +134,23 @@ it('forgets what was chosen when the map changes behind a closed tab', async () 
   await expect.element(page.getByTestId('recovery-cell')).not.toBeInTheDocument();
 });
 
+it('keeps what is pressed while a map goes on', async () => {
+  const before = reportOf({ map: 'posts', stage: 'running', cells: [cellOf(0, 'rl', 1)] });
+  const cells = [cellOf(0, 'rl', 2), cellOf(1, 'rl', 2)];
+  let report = before;
+  const { lab, server } = fakeLab({ 'GET /api/recoveries/recovery-1': () => report });
+  server.lists({ recoveries: [before] });
+  server.scene({ map: 'posts' });
+  show(() => <RecoveryPanel lab={lab} />);
+  const shapes = () => [...document.querySelectorAll('.recovery-thumb .cell')];
+  await expect.poll(() => shapes().length).toBe(1);
+  const [pressed] = shapes();
+  report = { ...before, done: 2, cells };
+  server.lists({ recoveries: [report] });
+  await expect.poll(() => shapes().length).toBe(2);
+  expect(shapes()[0]).toBe(pressed);
+});
+
 it('says how large the area is only when all of the map is tried', async () => {
   const basin = {
     ...{ controller: 'rl', trials: 10, delivered: 10, share: 1, share95: [0.72, 1] },
@@ -156,16 +174,11 @@ it('says how large the area is only when all of the map is tried', async () => {
 });
 
 it('shows each controller or the difference of two, and goes from cell to cell by keys', async () => {
-  const cell = (number: number, controller: ControllerName, delivered: number): RecoveryCell => ({
-    ...{ cell: number, controller, delivered, late: 0, lost: 2 - delivered, repeats: 2 },
-    ...{ x_m: 0.02 * number, y_m: -0.35, size_m: 0.02, direction_rad: null, strength: null },
-    ...{ at_s: null, delivered_wilson95: [0, 1], time_s_median: null, why: null },
-  });
   const report = reportOf({
     map: 'posts',
     controllers: ['rl', 'errt'],
     names: ['rl', 'errt'],
-    cells: [cell(0, 'rl', 2), cell(1, 'rl', 0), cell(0, 'errt', 0), cell(1, 'errt', 2)],
+    cells: [cellOf(0, 'rl', 2), cellOf(1, 'rl', 0), cellOf(0, 'errt', 0), cellOf(1, 'errt', 2)],
   });
   const { lab, server } = fakeLab({
     'GET /api/recoveries/recovery-1': () => report,
