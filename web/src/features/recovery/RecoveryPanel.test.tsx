@@ -134,6 +134,22 @@ it('forgets what was chosen when the map changes behind a closed tab', async () 
   await expect.element(page.getByTestId('recovery-cell')).not.toBeInTheDocument();
 });
 
+it('brings the progress of a started map into sight', async () => {
+  await page.viewport(414, 240);
+  const report = reportOf({ map: 'posts', stage: 'running' });
+  const { lab, server } = fakeLab({
+    'POST /api/recoveries': () => report,
+    'GET /api/recoveries/recovery-1': () => report,
+  });
+  server.scene({ map: 'posts' });
+  show(() => <RecoveryPanel lab={lab} />);
+  await page.getByRole('button', { name: /^Map from/ }).click();
+  server.lists({ recoveries: [report] });
+  await expect.element(page.getByRole('button', { name: 'Cancel map' })).toBeInViewport();
+  await expect.element(page.getByTestId('recovery-progress')).toBeInViewport();
+  await page.viewport(414, 896);
+});
+
 it('keeps what is pressed while a map goes on', async () => {
   const before = reportOf({ map: 'posts', stage: 'running', cells: [cellOf(0, 'rl', 1)] });
   const cells = [cellOf(0, 'rl', 2), cellOf(1, 'rl', 2)];

@@ -1,7 +1,7 @@
 // The tab *Recovery*: from where the bead is still delivered after a disturbance.
 
 import { Shield } from 'lucide';
-import { Show, createMemo, type JSX } from 'solid-js';
+import { Show, createMemo, onMount, type JSX } from 'solid-js';
 import { labelOf } from '../../lab/parameters';
 import type { PanelProps } from '../../lab/panel';
 import { operatorOnly } from '../../lab/operatorOnly';
@@ -79,8 +79,13 @@ function Earlier(props: {
 
 function Progress(props: { lab: Session; report: RecoveryReport }): JSX.Element {
   const { attempt, refusal } = createAttempt();
+  let block!: HTMLDivElement;
+  // A map is started at the end of the panel.
+  onMount(() => {
+    block.scrollIntoView({ block: 'center' });
+  });
   return (
-    <div class="recovery-progress">
+    <div ref={block} class="recovery-progress">
       <progress
         max={Math.max(1, props.report.planned)}
         value={props.report.done}
