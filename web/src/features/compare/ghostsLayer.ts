@@ -13,6 +13,7 @@ export const GHOSTS_LAYER: MapLayer = {
   group: 'Motion',
   shownAtFirst: true,
   isUnclipped: true,
+  unavailable: (lab) => (lab.panel() === 'recovery' ? 'Hidden while Recovery is open.' : undefined),
   create: ({ lab }: LayerContext<Compared & Trial>) => ({
     aboveWalls: () => {
       const comparison = lab.comparison.shown();

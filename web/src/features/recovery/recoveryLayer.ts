@@ -96,8 +96,9 @@ function reportOn(lab: Pick<Trial, 'scene'>): RecoveryReport | undefined {
   return report?.kind === 'place' && report.map === lab.scene()?.map ? report : undefined;
 }
 
-/** For another goal it would be taken for a result of the present one. */
+/** Below a comparison it would hide the ghosts; for another goal it would be taken for a result of the present one. */
 function unavailable(lab: Lab): string | undefined {
+  if (lab.panel() === 'compare') return 'Hidden while Compare is open.';
   const report = reportOn(lab);
   if (!report || lab.panel() === 'recovery' || isForGoal(report, lab.goal())) return undefined;
   return 'Made for another goal. The tab Recovery shows it.';
