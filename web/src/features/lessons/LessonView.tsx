@@ -1,13 +1,17 @@
 // One lesson, one step at a time: predict, run, explain.
 
-import { ArrowLeft } from 'lucide';
+import { ArrowLeft, CircleCheck, CircleX } from 'lucide';
 import { For, Match, Show, Switch, createEffect, on, type JSX } from 'solid-js';
 import type { Events, Session, Trial } from '../../lab/slices';
 import { Fact } from '../../ui/Fact';
 import { Icon } from '../../ui/Icon';
 import type { Lesson } from './lesson';
+import { Named } from './Named';
 import { RunStep } from './RunStep';
 import type { Lessons } from './store';
+
+/** As the sections are cited. */
+const PAPER = 'Paper of Tariverdi and others, 2021, arXiv:2111.13969';
 
 interface Props {
   readonly store: Lessons;
@@ -40,6 +44,7 @@ function Predict(props: Props): JSX.Element {
 function Explain(props: Props): JSX.Element {
   const { store, lesson } = props;
   const chosen = (): string => store.progress().choices[lesson.id] ?? '';
+  const isRight = (): boolean => store.result()?.outcome === chosen();
   return (
     <>
       <Show
@@ -50,15 +55,17 @@ function Explain(props: Props): JSX.Element {
       >
         {(result) => (
           <>
-            <dl class="lesson-verdict" data-right={result().outcome === chosen()}>
-              <Show when={result().outcome !== chosen()}>
-                <div>
-                  <dt>Your prediction</dt>
-                  <dd>{lesson.choices[chosen()] ?? 'no prediction'}</dd>
-                </div>
-              </Show>
+            <dl class="lesson-verdict" data-right={isRight()}>
               <div>
-                <dt>{result().outcome === chosen() ? 'You were right' : 'What happened'}</dt>
+                <dt>You predicted</dt>
+                <dd>{lesson.choices[chosen()] ?? 'no prediction'}</dd>
+                <dd class="lesson-mark">
+                  <Icon of={isRight() ? CircleCheck : CircleX} />
+                  {isRight() ? 'Right' : 'Not right'}
+                </dd>
+              </div>
+              <div>
+                <dt>Measured</dt>
                 <dd data-testid="lesson-outcome">{lesson.choices[result().outcome]}</dd>
               </div>
             </dl>
@@ -70,8 +77,16 @@ function Explain(props: Props): JSX.Element {
           </>
         )}
       </Show>
-      <For each={lesson.why}>{(words) => <p>{words}</p>}</For>
-      <p class="lesson-paper">Paper: {lesson.paper}</p>
+      <For each={lesson.why}>
+        {(words) => (
+          <p>
+            <Named words={words} />
+          </p>
+        )}
+      </For>
+      <p class="lesson-paper">
+        {PAPER}: {lesson.paper}
+      </p>
     </>
   );
 }
@@ -92,13 +107,25 @@ export function LessonView(props: Props & { lab: Session & Trial & Events }): JS
       {left}
       <button
         type="button"
-        classList={{ primary: isLast() || store.mayGoOn() }}
+        classList={{ primary: isLast() ? !store.following() : store.mayGoOn() }}
         disabled={!isLast() && !store.mayGoOn()}
         title={why()}
         onClick={() => (isLast() ? store.close() : store.go(store.step() + 1))}
       >
         {isLast() ? 'Finish' : 'Next'}
       </button>
+      <Show when={isLast() && store.following()}>
+        {(following) => (
+          <button
+            type="button"
+            class="primary"
+            title={following().title}
+            onClick={() => store.open(following())}
+          >
+            Next lesson
+          </button>
+        )}
+      </Show>
     </footer>
   );
   createEffect(

@@ -41,6 +41,8 @@ it('counts a lesson that was read to its end, whether it is finished or left', a
   server.state({ tick: 1250, sim_time_s: 10, tool_m: [0.15, -0.36, 0.1] });
   await expect.element(page.getByText('3 of 3 done')).toBeVisible();
   await button('Next').click();
+  await expect.element(page.getByText('Right', { exact: true })).toBeVisible();
+  await expect.element(page.getByText(/^Paper of Tariverdi/)).toBeVisible();
   await button('All lessons').click();
   await expect.element(button(/^Meet the magnet.*done/i)).toBeVisible();
 });
@@ -72,4 +74,20 @@ it('has the next task for a phone while an experiment of the lesson is on the pa
   await expect.element(button(/^Deliver.* 2 of 3$/)).toBeVisible();
   server.scene({ trial: 7 });
   await expect.element(page.getByText('Steered by')).toBeVisible();
+});
+
+it('goes on with the first lesson after this one that is not done', async () => {
+  localStorage.setItem(
+    'ferry.lessons',
+    JSON.stringify({ choices: { magnet: 'edge' }, done: ['magnet', 'lose'] }),
+  );
+  const { lab } = fakeLab();
+  show(() => <LessonsPanel lab={lab} />);
+  await expect.poll(() => lab.state()).toBeDefined();
+  await button(/^Meet the magnet/).click();
+  await button('Next').click();
+  await button('Next').click();
+  await button('Next lesson').click();
+  await expect.element(page.getByRole('heading', { name: 'The threshold T' })).toBeVisible();
+  localStorage.removeItem('ferry.lessons');
 });

@@ -8,9 +8,10 @@ import { trackedWords } from '../../lab/tracked';
 import { isActive, stageSentence, updateWords } from '../../lab/trainingStage';
 import type { TrainingSummary } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
+import { Fact } from '../../ui/Fact';
 import { Icon } from '../../ui/Icon';
-import '../../ui/Fact.css';
 import { isTraining, type Run, type TrainingRun } from './lesson';
+import { Named } from './Named';
 import type { Lessons } from './store';
 
 interface Props<R> {
@@ -27,16 +28,13 @@ function Readings(props: { lab: Trial & Events }): JSX.Element {
   return (
     <Show when={props.lab.state()}>
       {(state) => (
-        <dl class="facts">
-          <div>
-            <dt>Distance e, tracked</dt>
-            <dd class="number">{trackedWords(props.lab)}</dd>
-          </div>
-          <div>
-            <dt>Lift / weight</dt>
-            <dd class="number">{fixed(state().lift_ratio, 2)}</dd>
-          </div>
-        </dl>
+        <>
+          <dl class="facts">
+            <Fact name="Distance e, tracked" value={trackedWords(props.lab)} />
+            <Fact name="Lift / weight" value={fixed(state().lift_ratio, 2)} />
+          </dl>
+          <p class="hint">At lift / weight 1, the magnet lifts the bead.</p>
+        </>
       )}
     </Show>
   );
@@ -48,7 +46,13 @@ function Instructions(props: Props<Run | TrainingRun> & { to: string }): JSX.Ele
   return (
     <>
       <Show when={props.run.title}>{(title) => <h3>{title()}</h3>}</Show>
-      <For each={props.run.words}>{(words) => <p>{words}</p>}</For>
+      <For each={props.run.words}>
+        {(words) => (
+          <p>
+            <Named words={words} />
+          </p>
+        )}
+      </For>
       <Show when={!isTraining(props.run)}>
         <Readings lab={lab} />
       </Show>

@@ -27,8 +27,8 @@ export const ATTRACTOR: ExperimentLesson = {
       speed: 2,
       layers: ['flow', 'sensed'],
       words: [
-        'Set it up switches on the layer Attractor flow. Its arrows show where the law leads from each place that the camera has seen.',
-        'Press Run and wait until the tool stays in one place.',
+        '*Set it up* switches on the layer *Attractor flow*. Its arrows show where the law leads from each place that the camera has seen.',
+        'Press *Run* and wait until the tool stays in one place.',
       ],
       tasks: [
         {
@@ -82,8 +82,8 @@ export const ERRT: ExperimentLesson = {
       speed: 4,
       layers: ['plan', 'obstacles', 'seen'],
       words: [
-        'Set it up switches on the layers Plan, Obstacles and Seen so far. Gray is the area that the camera has not shown yet. The plan goes straight through it, and changes when a wall appears.',
-        'When the bead is delivered, press Send it back.',
+        '*Set it up* switches on the layers *Plan*, *Obstacles* and *Seen so far*. Gray is the area that the camera has not shown yet. The plan goes straight through it, and changes when a wall appears.',
+        'When the bead is delivered, press *Send it back*.',
       ],
       tasks: [
         { text: 'ERRT has planned again five times', done: (track) => track.plans > 5 },
@@ -135,7 +135,7 @@ export const POLICY: ExperimentLesson = {
       speed: 4,
       layers: ['camera', 'trail'],
       words: [
-        'Set it up shows a dashed square around the tool: this is what the camera sees. The panel Now shows its image; press it: it grows, with both channels of the observation. During the run, four bars beside it show the value that the policy gives to each possible step.',
+        '*Set it up* shows a dashed square around the tool: this is what the camera sees. The panel *Now* shows its image; press it: it grows, with both channels of the observation. During the run, four bars beside it show the value that the policy gives to each possible step.',
       ],
       tasks: [DELIVERED],
     },
@@ -145,7 +145,7 @@ export const POLICY: ExperimentLesson = {
       speed: 4,
       layers: ['camera', 'trail'],
       words: [
-        'Set it up moves the camera and switches Corrected image off. Press Run and watch how the values of the four steps change.',
+        '*Set it up* moves the camera and switches *Corrected image* off. Press *Run* and watch how the values of the four steps change.',
       ],
       tasks: [
         {
@@ -172,7 +172,7 @@ export const POLICY: ExperimentLesson = {
   why: [
     'The policy was trained with the tool in the middle of the image. At the first fold it gives a step down a low value and goes around the fold. With the moved camera, the fold is no longer in the middle of the image: the same step gets the highest value, and the policy always chooses it.',
     'The shield knows the position of the camera. It refuses that step and takes the next best one, to the left or to the right, so the tool moves to and fro. With the shield off, the arm does not move.',
-    'ERRT delivers the bead with the same moved camera, because it calculates the place of each pixel on the table. ERRT uses the geometry; the policy only knows images like those it was trained with. With Corrected image on, Ferry moves the image to where it was in training, and the policy delivers the bead too.',
+    'ERRT delivers the bead with the same moved camera, because it calculates the place of each pixel on the table. ERRT uses the geometry; the policy only knows images like those it was trained with. With *Corrected image* on, Ferry moves the image to where it was in training, and the policy delivers the bead too.',
     'This policy also needs the map that it was trained on. On other maps Ferry takes the policy explorer. It remembers what the camera has seen and plans with it, so it needs no training on the map, and a moved camera does not matter to it.',
   ],
   paper:

@@ -31,7 +31,7 @@ export interface Run {
   readonly speed?: number;
   /** Layers that are switched on with the run. */
   readonly layers: readonly string[];
-  /** Instructions, one paragraph each. */
+  /** Instructions, one paragraph each, with the names of buttons and layers between asterisks. */
   readonly words: readonly string[];
   /** After the first one, which is to run it. */
   readonly tasks: readonly Task[];
@@ -66,6 +66,7 @@ interface Steps<R, M> {
   readonly runs: readonly [R, ...R[]];
   /** Id of the choice that came true. There is one measurement per run. */
   readonly outcome: (...measured: M[]) => string;
+  /** Names as in the instructions. */
   readonly why: readonly string[];
   /** Section of the paper. */
   readonly paper: string;

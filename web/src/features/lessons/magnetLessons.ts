@@ -25,8 +25,9 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
       link: '#v=1&map=open&controller=attractor&seed=1&start=-0.15,-0.36&goal=0.15,-0.36',
       layers: ['capture', 'trail'],
       words: [
-        'Set it up loads an empty table with the goal 30 cm to the right, and switches on the layer Capture: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
-        'Press Run and look at e below: the distance between the tool and the tracked bead. The tracker’s noise is 1 or 2 mm.',
+        '*Set it up* loads an empty table with the goal 30 cm to the right, and lets *Attractor* steer: it heads straight for the goal.',
+        'It also switches on the layer *Capture*: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
+        'Press *Run* and look at e below: the distance between the tool and the tracked bead. The tracker’s noise is 1 or 2 mm.',
       ],
       tasks: [
         { text: 'The bead is carried for 10 cm', done: (track) => track.travelled_m > 0.1 },
@@ -70,8 +71,8 @@ export const LIFT_OFF: ExperimentLesson = {
       link: '#v=1&map=open&controller=attractor&seed=1&start=0,-0.36',
       layers: ['capture'],
       words: [
-        'Set it up places the tool above the bead, without a goal. Press Run and lower the magnet step by step.',
-        'Look at lift / weight below: at 1 the magnet lifts the whole weight of the bead.',
+        '*Set it up* places the tool above the bead, without a goal. Press *Run* and lower the magnet step by step.',
+        'Look at lift / weight below.',
       ],
       tasks: [
         {
@@ -122,7 +123,7 @@ export const LIFT_OFF: ExperimentLesson = {
   why: [
     `The lift grows fast as the magnet comes down: ${fixed(FACTS.lift, 2)} of the weight at ${millimetres(FACTS.height_m)}, 0.90 at ${millimetres(FACTS.nine_tenths_at_m)}, and the whole weight at ${millimetres(FACTS.lift_off_m, 1)}. There the bead rises. The pull grows as it rises, so the bead hits the magnet.`,
     `A height of ${centimetres(FACTS.height_m, 0)} is a compromise. If the magnet is higher, its sideways pull soon becomes weaker than friction. If it is lower, the bead jumps to it.`,
-    `On its edge (B), the magnet has a weaker field at the bead. It would lift the bead only at a height of ${millimetres(FACTS.lift_off_on_edge_m)}. But its sideways pull is also much weaker: in the layer Capture, only two small areas are left of the ring.`,
+    `On its edge (B), the magnet has a weaker field at the bead. It would lift the bead only at a height of ${millimetres(FACTS.lift_off_on_edge_m)}. But its sideways pull is also much weaker: in the layer *Capture*, only two small areas are left of the ring.`,
   ],
   paper: `Section V: the arm moves in a plane ${centimetres(FACTS.height_m, 0)} above the table.`,
 };

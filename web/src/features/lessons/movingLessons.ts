@@ -31,7 +31,7 @@ export const THE_GUT_MOVES: ExperimentLesson = {
       speed: 4,
       layers: ['camera', 'trail'],
       words: [
-        'The same start and goal. After Run, the walls begin to move: they close in and open again, one wave after the other.',
+        'The same start and goal. After *Run*, the walls begin to move: they close in and open again, one wave after the other.',
         'The waves travel at 2 cm/s, half as fast as the tool.',
       ],
       tasks: [DELIVERED],

@@ -182,6 +182,11 @@ function createLessons(lab: LessonsLab) {
       const measured = all(now.runs, (one) => tracks().get(one));
       return measured && { outcome: now.outcome(...measured), facts: now.facts(...measured) };
     },
+    /** The first lesson after this one that is not done. */
+    following: (): Lesson | undefined => {
+      const now = lesson();
+      return now && LESSONS.slice(LESSONS.indexOf(now) + 1).find((one) => !isDone(one));
+    },
     open: ({ id }: Lesson): void => lab.address.learn(id),
     close: (): void => lab.address.learn(undefined),
     /** The lesson is done when its last step is shown. */

@@ -42,7 +42,8 @@ export const LOSE_THE_BEAD: ExperimentLesson = {
       link: POSTS,
       layers: ['trail', 'capture'],
       words: [
-        'Press Run. While the arm carries the bead, drag the bead away with the mouse or a finger, farther than T, and release it. Or press the button Take it away for me.',
+        '*Set it up* lets *Attractor* steer: it heads straight for the goal and bends its way around walls.',
+        'Press *Run*. While the arm carries the bead, drag the bead away with the mouse or a finger, farther than T, and release it. Or press the button *Take it away for me*.',
       ],
       tasks: [
         {
@@ -89,7 +90,8 @@ function kickedRun(title: string, link: string): Run {
     link,
     layers: ['trail'],
     words: [
-      'Four kicks of 0.5 mN·s push the bead backward, at the steps 4, 10, 16 and 22. Press Run and watch.',
+      '*Set it up* lets *Attractor* steer: it heads straight for the goal.',
+      'Four kicks of 0.5 mN·s push the bead backward, at the steps 4, 10, 16 and 22. Press *Run* and watch.',
     ],
     tasks: [
       { text: 'Four kicks have happened', done: (track) => track.disturbances >= 4 },
@@ -152,7 +154,8 @@ export const TWO_LAWS: ExperimentLesson = {
       speed: 2,
       layers: ['trail'],
       words: [
-        'Press Run. After about 3 s the bead is moved away. Look at the sentence at the top and at e below.',
+        '*Set it up* lets *Attractor* steer: it heads straight for the goal and bends its way around walls.',
+        'Press *Run*. After about 3 s the bead is moved away. Look at the sentence at the top and at e below.',
       ],
       tasks: [
         { text: 'The bead is lost', done: (track) => track.losses > 0 },

@@ -34,7 +34,7 @@ export const LEARNING_FAILS: TrainingLesson = {
       settings: { updates: UPDATES, exploration: 0, noisy: false },
       words: [
         'In this training the robot always takes the step that it thinks is best.',
-        'Press Train. The view Train shows the value map and the episodes meanwhile.',
+        'Press *Train*. The view *Train* shows the value map and the episodes meanwhile.',
       ],
     },
     {
@@ -84,7 +84,7 @@ export const FAR_GOAL: TrainingLesson = {
       title: 'Discount .97',
       policy: 'lesson-far',
       settings: { updates: MORE_UPDATES, progress_reward: 0, step_penalty: 0, discount: 0.97 },
-      words: ['Press Train. In the view Train, watch how far from the goal the colours reach.'],
+      words: ['Press *Train*. In the view *Train*, watch how far from the goal the colours reach.'],
     },
     {
       title: 'Discount .5',
@@ -118,7 +118,7 @@ export const FINE_TUNING: TrainingLesson = {
       title: 'From random weights',
       policy: 'lesson-random',
       settings: { updates: FEW_UPDATES },
-      words: ['A third of the updates that this maze needs. Press Train.'],
+      words: ['A third of the updates that this maze needs. Press *Train*.'],
     },
     {
       title: 'From the policy colon',
@@ -131,7 +131,7 @@ export const FINE_TUNING: TrainingLesson = {
   outcome: (random, tuned) => better(random, tuned, ['random', 'tuned']),
   why: [
     'The first layers of the network read the image: where walls are, and how near. Walls look the same in every maze, so this part is useful from the start. What the network still has to learn is which way leads to the goal here.',
-    'On your own map, choose a policy at Start from. It saves most when there is little time; a full training ends equally well from random weights.',
+    'On your own map, choose a policy at *Start from*. It saves most when there is little time; a full training ends equally well from random weights.',
   ],
   paper: 'Not in the paper, which trains once, for one maze.',
 };
