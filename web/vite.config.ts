@@ -106,7 +106,7 @@ export default defineConfig({
     // The page, the one that Rerun's viewer has for itself, the one to log in with, and what is there in place of a page
     // that is not.
     rolldownOptions: {
-      input: ['index.html', 'viewer/index.html', 'login/index.html', 'refused/index.html'],
+      input: ['', 'viewer/', 'login/', 'refused/', 'copy/'].map((folder) => `${folder}index.html`),
     },
     // The renderer of the 3-D view, which is loaded when that is opened.
     chunkSizeWarningLimit: 700,

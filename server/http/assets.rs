@@ -205,6 +205,8 @@ pub async fn page(State(server): State<Arc<Server>>, method: Method, uri: Uri, h
     }
     let name = match path {
         "/viewer/" => "viewer/index.html",
+        // A shared experiment. The page leads to a session of its reader's own.
+        "/copy/" => "copy/index.html",
         path => path.trim_start_matches('/'),
     };
     server.page.send(name, &headers)

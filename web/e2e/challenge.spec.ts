@@ -125,7 +125,7 @@ test('a viewer gets a session of its own for the challenge of a link', async ({
   expect(viewer.scene.challenge, 'a viewer changes nothing').toBeNull();
   const link = page.getByRole('link', { name: 'Play in a session of your own' });
   const address = must(await link.getAttribute('href'), 'the address');
-  expect(address).toMatch(/^\/s\/play-[a-z0-9]{8}\?challenge=easy-e$/);
+  expect(address).toMatch(/^\/s\/[a-z]+-[a-z]+-[a-z0-9]{5}\?challenge=easy-e$/);
   const own = await openLab({ url: new URL(address, page.url()).href });
   await own.isRole('operator');
   await until('the challenge', () => own.scene.challenge === NAME);

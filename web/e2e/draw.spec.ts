@@ -118,7 +118,7 @@ test('a link brings a drawn map to a server that does not have it', async ({ lab
   await expect.poll(() => lab.scene.map).toBe('vee');
   await lab.button('Dismiss the report').click();
   await lab.button('Share').click();
-  const field = page.getByLabel('Link to this experiment');
+  const field = page.getByLabel('Link: A copy for each');
   await expect(field).toHaveValue(/&drawing=[\w-]+$/);
   const hash = new URL(await field.inputValue()).hash;
   const svg = await (await page.request.get(`${server.url}/api/maps/vee`)).text();

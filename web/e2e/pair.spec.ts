@@ -62,6 +62,16 @@ test('passes released control to the viewer that requested it', async ({ lab, op
   await lab.takeControl();
 });
 
+test('a viewer opens a session of its own with one press', async ({ lab, openLab, server }) => {
+  const viewer = await openLab();
+  await viewer.isRole('viewer');
+  await viewer.page.getByRole('link', { name: 'Open your own' }).click();
+  await viewer.isRole('operator');
+  await until('its own session', () => viewer.hello.session !== lab.hello.session);
+  await lab.isRole('operator');
+  await fetch(`${server.url}/api/sessions/${viewer.hello.session}`, { method: 'DELETE' });
+});
+
 test('releases the bead when the operator closes the browser', async ({ lab, openLab }) => {
   await lab.releaseControl();
   const other = await openLab();

@@ -1,22 +1,24 @@
 // Experiment links that are opened and presets.
 
-import { type Lab, expect, test } from './fixtures';
+import { Lab, expect, test } from './fixtures';
+import { skipFirstVisit } from './support/lab';
 import { until } from './support/wait';
 
 const QUESTION = /This link asks for map colon, ERRT/i;
 const PRESET = 'A shaken table, T = 3 cm';
 
-const fieldOf = (lab: Lab) => lab.page.getByLabel('Link to this experiment');
+const fieldOf = (lab: Lab) => lab.page.getByLabel('Link: A copy for each');
 const questionOf = (lab: Lab) => lab.page.getByRole('alert', { name: 'Link' });
 
+/** The shared experiment at the address of this session. */
 async function sharedLink(lab: Lab) {
   // The link is of the experiment that the page shows.
   await lab.drawn();
   await lab.button('Share').click();
-  const link = await fieldOf(lab).inputValue();
+  const { hash } = new URL(await fieldOf(lab).inputValue());
   await lab.page.keyboard.press('Escape');
   await expect(fieldOf(lab)).toHaveCount(0);
-  return link;
+  return new URL(hash, lab.page.url()).href;
 }
 
 /** Changes the part of the address after `#`, as if it was typed. */
@@ -52,7 +54,7 @@ test('asks a viewer before it loads a linked experiment', async ({ lab, openLab 
   await expect(question).toContainText(QUESTION);
   expect(second.scene.map, 'a viewer loaded it').toBe('posts');
   await lab.releaseControl();
-  await question.getByRole('button', { name: 'Load' }).click();
+  await question.getByRole('button', { name: 'Load it here' }).click();
   await until('the map colon', isColon(second));
   expect({
     seed: second.scene.seed,
@@ -106,4 +108,28 @@ test('loads a preset', async ({ lab }) => {
   await lab.restoreDefaults();
   await lab.setUp();
   await expect(selected).toHaveText('Preset…');
+});
+
+test('a shared copy opens in a session of its own, after one press', async ({
+  lab,
+  browser,
+  server,
+}) => {
+  await shareChanged(lab);
+  const { trial } = lab.scene;
+  await lab.button('Share').click();
+  const copy = await fieldOf(lab).inputValue();
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await skipFirstVisit(page);
+  const other = new Lab(page);
+  await page.goto(copy);
+  await page.getByRole('link', { name: 'Open the experiment' }).click();
+  await other.live();
+  await other.isRole('operator');
+  await until('the map colon', isColon(other));
+  expect(other.hello.session).toMatch(/^[a-z]+-[a-z]+-[a-z0-9]+$/);
+  expect([lab.scene.trial, lab.hello.role]).toEqual([trial, 'operator']);
+  await context.close();
+  await fetch(`${server.url}/api/sessions/${other.hello.session}`, { method: 'DELETE' });
 });

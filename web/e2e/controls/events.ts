@@ -93,13 +93,15 @@ export const SHARE: Section = {
   name: 'the experiment link',
   rowReady: open('Share'),
   rows: {
-    'textbox Link to this experiment': {
+    'textbox /^Link: /': {
       see: (_lab, locator) =>
         locator.evaluate(
           (one: HTMLInputElement) => (one.selectionEnd ?? 0) - (one.selectionStart ?? 0),
         ),
     },
-    'button Copy': { see: (lab) => lab.page.locator('.share-done').innerText() },
+    'button /^Copy: /': {
+      see: async (lab) => (await lab.page.locator('.share-done').allInnerTexts()).join(),
+    },
     'button Picture (PNG)': { see: downloads },
     'button Record video': {
       see: (lab) => lab.page.getByRole('timer').count(),

@@ -88,7 +88,7 @@ export function Page(): JSX.Element {
         mode={mode()}
         onMode={chooseMode}
         share={
-          <ShareButton links={links} map={lab.scene()?.map}>
+          <ShareButton session={lab.session} links={links} map={lab.scene()?.map}>
             <CaptureTools capture={capture} />
           </ShareButton>
         }

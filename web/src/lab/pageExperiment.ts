@@ -84,6 +84,8 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
   return {
     /** The experiment of the address that is not loaded yet, because a viewer may not load it. */
     requested,
+    /** The link as it is in the address. */
+    hash,
     /** Why the link is not valid. */
     broken: () => {
       const now = reading();

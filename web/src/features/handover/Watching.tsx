@@ -2,9 +2,11 @@
 
 import { Eye } from 'lucide';
 import { Show, type JSX } from 'solid-js';
+import { ownAddress } from '../../lab/ownSession';
 import type { Session } from '../../lab/slices';
 import { Icon } from '../../ui/Icon';
 import { createCountdown } from './countdown';
+import './handover.css';
 
 export function Watching(props: { lab: Session; children: JSX.Element }): JSX.Element {
   const { lab } = props;
@@ -27,12 +29,15 @@ export function Watching(props: { lab: Session; children: JSX.Element }): JSX.El
         </Show>
       </p>
       <div class="dock-tools">{props.children}</div>
+      <a class="button primary" href={ownAddress()}>
+        Open your own
+      </a>
       <Show
         when={lab.hello()?.asks}
         fallback={
           <button
             type="button"
-            class="primary"
+            class="take"
             onClick={() => void lab.send('session', { type: 'take_control' })}
           >
             Take control

@@ -2,6 +2,7 @@
 
 import { Match, Switch, type JSX } from 'solid-js';
 import { experimentWords } from '../../lab/experimentLink';
+import { ownAddress } from '../../lab/ownSession';
 import type { PageExperiment } from '../../lab/pageExperiment';
 import type { Session } from '../../lab/slices';
 import { CloseButton } from '../../ui/CloseButton';
@@ -25,17 +26,17 @@ export function ExperimentNotice(props: { lab: Session; links: PageExperiment })
         <Match when={links.requested()}>
           {(experiment) => (
             <p>
-              <span>
-                This link asks for {experimentWords(experiment())}
-                {lab.canOperate() ? '.' : '; take control to load it.'}
-              </span>
+              <span>This link asks for {experimentWords(experiment())}.</span>
+              <a class="button small primary" href={ownAddress(links.hash())}>
+                Open it in your own session
+              </a>
               <button
                 type="button"
-                class="small primary"
+                class="small"
                 disabled={lab.connection().kind !== 'live'}
                 onClick={() => links.load()}
               >
-                Load
+                Load it here
               </button>
               {close}
             </p>

@@ -1,47 +1,31 @@
-// The page's experiment as a link to copy.
+// The links that the page offers: to its session, and to its experiment.
 
-import { Show, createEffect, createResource, createSignal, type JSX } from 'solid-js';
-import { Copy, Share2 } from 'lucide';
+import { Show, createResource, type JSX } from 'solid-js';
+import { Share2 } from 'lucide';
 import { drawingForLink } from '../../lab/drawingLink';
 import type { PageExperiment } from '../../lab/pageExperiment';
+import { addressOf } from '../../net/base';
 import { Icon } from '../../ui/Icon';
 import { createPopover } from '../../ui/popover';
+import { LinkRow } from './LinkRow';
 import './share.css';
 
 export function ShareButton(props: {
+  session: string;
   links: PageExperiment;
   /** The map of the experiment. */
   map: string | undefined;
-  /** Below the link. */
+  /** Below the links. */
   children: JSX.Element;
 }): JSX.Element {
-  let field!: HTMLInputElement;
-  const [copied, setCopied] = createSignal('');
   const popover = createPopover('share');
   // Asked for when the link is.
   const [drawn] = createResource(() => (popover.open() ? props.map : undefined), drawingForLink);
-  const address = (): string => {
-    const { origin, pathname } = window.location;
+  const address = (path: string): string => window.location.origin + addressOf(path);
+  const copy = (): string => {
     const { text } = drawn() ?? {};
     const drawing = text === undefined ? '' : `&drawing=${text}`;
-    return `${origin}${pathname}${props.links.now() ?? ''}${drawing}`;
-  };
-  createEffect(() => {
-    // The link has changed since it was copied, or the popover was opened again.
-    props.links.now();
-    popover.open();
-    setCopied('');
-  });
-  const select = (): void => {
-    field.focus();
-    field.select();
-    setCopied('Selected: copy it with the keyboard or the menu.');
-  };
-  const copy = (): void => {
-    // The clipboard is missing on a page loaded by plain HTTP from another machine.
-    const clipboard = navigator.clipboard as Clipboard | undefined;
-    if (clipboard) clipboard.writeText(field.value).then(() => setCopied('Copied.'), select);
-    else select();
+    return `${address('/copy/')}${props.links.now() ?? ''}${drawing}`;
   };
   return (
     <div {...popover.box} class="share">
@@ -55,35 +39,15 @@ export function ShareButton(props: {
         <span class="share-word">Share</span>
       </button>
       <Show when={popover.open()}>
-        <div
-          id="share"
-          class="popover of-top share-box"
-          role="group"
-          aria-label="Share this experiment"
-        >
-          <h3>Link to this experiment</h3>
-          <div class="share-row">
-            <input
-              ref={field}
-              type="text"
-              readonly
-              aria-label="Link to this experiment"
-              value={address()}
-              onFocus={() => field.select()}
-            />
-            <button type="button" class="primary" onClick={copy}>
-              <Icon of={Copy} />
-              Copy
-            </button>
-          </div>
-          <p class="share-done" role="status">
-            {copied()}
-          </p>
-          <p class="hint">
-            It contains the map, seed, start, goal, controller, changed parameters and scripted
-            disturbances, and begins at the start of this trial, with the last goal. It does not
-            contain what you did by hand, such as drags and kicks. {drawn()?.remark}
-          </p>
+        <div id="share" class="popover of-top share-box" role="group" aria-label="Share">
+          <LinkRow title="Watch this" address={address(`/s/${props.session}`)}>
+            This session: all see what happens here, and one of them operates it.
+          </LinkRow>
+          <LinkRow title="A copy for each" address={copy()}>
+            This experiment, in a session of the reader’s own: map, seed, start, goal, controller,
+            changed parameters and scripted disturbances, from the start of this trial. What you did
+            by hand is not in it. {drawn()?.remark}
+          </LinkRow>
           {props.children}
         </div>
       </Show>

@@ -27,7 +27,7 @@ async function open() {
       <div style={{ '--top': '300px' }}>
         <ExperimentNotice lab={lab} links={links} />
         <PresetSelect lab={lab} links={links} />
-        <ShareButton links={links} map={lab.scene()?.map}>
+        <ShareButton session="anna" links={links} map={lab.scene()?.map}>
           More
         </ShareButton>
         <PlaceNotice lab={lab} place="playback" />
@@ -51,13 +51,17 @@ it('has the experiment in its link, and copies it', async () => {
   });
   server.state({ controller: 'errt', goal_m: [0.1, -0.3, 0] });
   await button('Share').click();
-  const field = page.getByLabelText('Link to this experiment');
+  const field = page.getByLabelText('Link: A copy for each');
   const link = (): string => (field.element() as HTMLInputElement).value;
   await expect.poll(link).toContain('controller=errt');
   for (const part of ['map=colon', 'goal=0.1,-0.3', 'threshold_m=0.08', 'fetch_radius_m=0.015']) {
     expect(link()).toContain(part);
   }
-  await button('Copy').click();
+  expect(link()).toMatch(/\/copy\/#v=1&/);
+  await expect
+    .element(page.getByLabelText('Link: Watch this'))
+    .toHaveValue(`${window.location.origin}/s/anna`);
+  await button('Copy: A copy for each').click();
   await expect.element(page.getByText(/^(Copied\.|Selected: )/)).toBeVisible();
 });
 
