@@ -16,6 +16,12 @@ test('opens on a goal in the colon, with a tip', async ({ page, watch }) => {
     expect(lab.state.running).toBe(false);
     expect(await lab.goal()).toBeDefined();
     await expect(page.locator('.tip span')).toHaveText('Press Run, then drag the bead away.');
+    // A lesson has its own task.
+    await page.getByRole('tab', { name: 'Learn' }).click();
+    await page.getByRole('button', { name: /^Meet the magnet/ }).click();
+    await expect(page.locator('.tip')).toHaveCount(0);
+    await page.getByRole('button', { name: 'All lessons' }).click();
+    await expect(page.locator('.tip')).toBeVisible();
     expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
     expect(await violations(page)).toEqual([]);
     await lab.run();

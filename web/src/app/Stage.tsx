@@ -143,7 +143,12 @@ export function Stage(props: {
             </p>
           </Match>
         </Switch>
-        <Show when={!interaction.picker.isPicking() && !lab.steering.isActive()}>
+        {/* A lesson has its own task. */}
+        <Show
+          when={
+            !interaction.picker.isPicking() && !lab.steering.isActive() && !lab.address.lesson()
+          }
+        >
           <TipBar lab={lab} scene={isScene()} />
         </Show>
         {props.children}
