@@ -63,6 +63,29 @@ export function MoreMenu(props: { lab: Session & Trial & Notices & Addressed }):
       </button>
       <Show when={popover.open()}>
         <div id="more" class="popover of-top more-box" role="group" aria-label="More">
+          <h2>Actions</h2>
+          <a
+            class="button"
+            // The demonstration returns to this page.
+            href={`${addressOf('/demo')}#${pathOf(window.location.pathname)}`}
+            title="A demonstration that runs by itself. F11 gives it the whole screen, Esc returns."
+          >
+            <Icon of={Presentation} />
+            Present
+          </a>
+          <Show when={isLive() && isOperator()}>
+            <button
+              type="button"
+              onClick={() => {
+                void lab.send('session', { type: 'release_control' });
+                popover.close();
+              }}
+            >
+              <Icon of={LogOut} />
+              Release control
+            </button>
+          </Show>
+          <h2 class="more-facts">This session</h2>
           <dl class="facts">
             <div>
               <dt>You are</dt>
@@ -93,27 +116,6 @@ export function MoreMenu(props: { lab: Session & Trial & Notices & Addressed }):
               )}
             </Show>
           </dl>
-          <Show when={isLive() && isOperator()}>
-            <button
-              type="button"
-              onClick={() => {
-                void lab.send('session', { type: 'release_control' });
-                popover.close();
-              }}
-            >
-              <Icon of={LogOut} />
-              Release control
-            </button>
-          </Show>
-          <a
-            class="button"
-            // The demonstration returns to this page.
-            href={`${addressOf('/demo')}#${pathOf(window.location.pathname)}`}
-            title="A demonstration that runs by itself. F11 gives it the whole screen, Esc returns."
-          >
-            <Icon of={Presentation} />
-            Present
-          </a>
         </div>
       </Show>
     </div>
