@@ -88,11 +88,6 @@ export function RecoveryStart(props: {
       disabled={!lab.canOperate()}
       beside={
         <>
-          <Show when={trials() > 0}>
-            <span class="hint" data-testid="recovery-size">
-              {size()}
-            </span>
-          </Show>
           <For each={props.report && FILES}>
             {([ending, name]) => (
               <a
@@ -104,6 +99,11 @@ export function RecoveryStart(props: {
               </a>
             )}
           </For>
+          <Show when={trials() > 0}>
+            <span class="hint" data-testid="recovery-size">
+              {size()}
+            </span>
+          </Show>
         </>
       }
     >
