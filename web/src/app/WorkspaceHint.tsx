@@ -15,6 +15,8 @@ function Hint(props: { icon: IconNode; children: JSX.Element }): JSX.Element {
   );
 }
 
+const DragHint = (): JSX.Element => <Hint icon={HandGrab}>Drag the bead to disturb it</Hint>;
+
 export function WorkspaceHint(props: {
   steers: boolean;
   scene: boolean;
@@ -32,10 +34,17 @@ export function WorkspaceHint(props: {
         </>
       }
     >
-      <Hint icon={HandGrab}>Drag the bead to disturb it</Hint>{' '}
-      <Hint icon={Target}>
-        {IS_TOUCH ? 'Tap' : 'Click'} {props.press?.words ?? 'to set the goal'}
-      </Hint>{' '}
+      {/* The last one may have no room. */}
+      <Show when={props.press} fallback={<DragHint />}>
+        {(press) => (
+          <Hint icon={Target}>
+            {press().shown}: {IS_TOUCH ? 'tap' : 'click'} {press().words}
+          </Hint>
+        )}
+      </Show>{' '}
+      <Show when={!props.press} fallback={<DragHint />}>
+        <Hint icon={Target}>{IS_TOUCH ? 'Tap' : 'Click'} to set the goal</Hint>
+      </Show>{' '}
       <Show when={props.scene}>
         <Hint icon={Move3d}>Drag elsewhere to turn the view</Hint>
       </Show>

@@ -49,7 +49,9 @@ type DrawnParts = {
 
 /** What a press on the map does in place of setting the goal. */
 export interface Press {
-  /** Where, and what for: goes on after *Click* or *Tap*. */
+  /** What the map shows: stands before *click* or *tap*. */
+  readonly shown: string;
+  /** Where, and what for: goes on after it. */
   readonly words: string;
   /** Undefined for a place where it sets the goal. */
   readonly at: (place: Vec2) => (() => void) | undefined;

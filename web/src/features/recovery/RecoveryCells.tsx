@@ -6,14 +6,11 @@ import type { Notices, Session, Trial } from '../../lab/slices';
 import type { Basin, RecoveryCell, RecoveryReport } from '../../net/protocol.gen';
 import { Glyph } from '../../ui/Glyph';
 import { Interval } from '../../ui/Interval';
-import { cellAt, cellWords, looksOf, rowsOf, squareCentimetres } from './cells';
+import { cellAt, cellWords, looksOf, rowsOf, squareCentimetres, titleOf } from './cells';
 import { RecoveryFigure } from './RecoveryFigure';
 import * as store from './store';
 
 const percent = (share: number): string => String(Math.round(100 * share));
-
-export const titleOf = ({ names }: RecoveryReport, indices: readonly number[]): string =>
-  indices.map((index) => labelOf(names[index] ?? '')).join(' minus ');
 
 function Legend(props: { isDifference: boolean }): JSX.Element {
   const keys = (): readonly (readonly [string, string])[] =>

@@ -1,6 +1,7 @@
 // What the cells of a recovery map say. Pure.
 
 import type { Vec2 } from '../../lab/geometry';
+import { labelOf } from '../../lab/parameters';
 import type { RecoveryCell, RecoveryReport, RecoveryTrial } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
 
@@ -29,6 +30,10 @@ export function difference(first: RecoveryCell, second: RecoveryCell): Look {
   if (points === 0) return { kind: 'equal', strength: 1 };
   return { kind: points > 0 ? 'first' : 'second', strength: Math.abs(points) };
 }
+
+/** The controller whose cells are shown, or the two whose difference is. */
+export const titleOf = ({ names }: RecoveryReport, indices: readonly number[]): string =>
+  indices.map((index) => labelOf(names[index] ?? '')).join(' minus ');
 
 export const rowsOf = (
   { cells }: Pick<RecoveryReport, 'cells'>,

@@ -9,7 +9,7 @@ import { drawText, strokeCased } from '../../plan/marks';
 import { circle } from '../../plan/shapes';
 import type { Ctx } from '../../plan/sheet';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { cellAt, isForGoal, type Look, looksOf, rowsOf } from './cells';
+import { cellAt, isForGoal, type Look, looksOf, rowsOf, titleOf } from './cells';
 import * as store from './store';
 import type { Palette } from '../../ui/palette';
 
@@ -172,18 +172,20 @@ export const RECOVERY_LAYER: MapLayer = {
       },
       press: () => {
         const report = lab.panel() === 'recovery' ? reportOn(lab) : undefined;
-        return (
-          report && {
-            words: 'a cell to see its trials',
-            at: (place) => {
-              const cell = cellAt(report, place);
-              if (cell === undefined) return undefined;
-              return () => {
-                store.setChosen({ cell, name: report.names[store.shownOf(report)[0]] ?? '' });
-              };
-            },
-          }
-        );
+        if (!report) return undefined;
+        const indices = store.shownOf(report);
+        const title = titleOf(report, indices);
+        return {
+          shown: indices.length > 1 ? title : `Where ${title} still delivers`,
+          words: 'a cell to see its trials',
+          at: (place) => {
+            const cell = cellAt(report, place);
+            if (cell === undefined) return undefined;
+            return () => {
+              store.setChosen({ cell, name: report.names[indices[0]] ?? '' });
+            };
+          },
+        };
       },
     };
   },
