@@ -46,7 +46,7 @@ pub(super) fn document(report: &Report, map: &Map) -> String {
         }
         p.key {
             (key(DELIVERED)) " delivered: the more trials, the darker; "
-            (key("url(#late)")) " mostly late; " (key("url(#lost)")) " mostly lost."
+            (key("url(#late)")) " mostly late; " (key("url(#lost)")) " mostly not delivered."
         }
         div.maps {
             @for name in &report.controllers {
@@ -149,7 +149,7 @@ fn fill(row: &CellRow) -> (&'static str, f64) {
 fn words(row: &CellRow) -> String {
     let why = row.why.as_ref().map_or(String::new(), |why| format!(" ({why})"));
     let time = row.time_s_median.map_or(String::new(), |time_s| format!(", median {time_s:.1} s"));
-    format!("{} delivered, {} late, {} lost{why}{time}", row.delivered, row.late, row.lost)
+    format!("{} delivered, {} late, {} not delivered{why}{time}", row.delivered, row.late, row.lost)
 }
 
 fn places(report: &Report, map: &Map, rows: &[&CellRow]) -> Markup {

@@ -22,7 +22,7 @@ function Legend(props: { isDifference: boolean }): JSX.Element {
         ]
       : [
           ['delivered', 'delivered'],
-          ['late', 'too late'],
+          ['late', 'late'],
           ['lost', 'not delivered'],
         ];
   return (

@@ -91,13 +91,13 @@ it('shows a recovery map of another map only when it is chosen, and says so', as
   server.lists({ recoveries: [report] });
   show(() => <RecoveryPanel lab={lab} />);
   const choice = page.getByLabelText('Recovery map', { exact: true });
-  await expect.element(choice).toHaveTextContent('1: place, colon, another map');
+  await expect.element(choice).toHaveTextContent('1: Put elsewhere, colon, another map');
   await expect.element(page.getByTestId('recovery-progress')).not.toBeInTheDocument();
   await choice.selectOptions('recovery-1');
   const shown = page.getByTestId('recovery-progress');
   await expect.element(shown).toHaveTextContent('another map than that of the session');
   server.scene({ map: 'colon' });
-  await expect.element(shown).toHaveTextContent(/^place on colon from/);
+  await expect.element(shown).toHaveTextContent(/^Put elsewhere on colon from/);
   server.scene({ map: 'posts' });
   await expect.element(shown).not.toBeInTheDocument();
 });
@@ -130,7 +130,7 @@ it('forgets what was chosen when the map changes behind a closed tab', async () 
   setOpen(true);
   await expect
     .element(page.getByTestId('recovery-progress'))
-    .toHaveTextContent(/^place on posts from/);
+    .toHaveTextContent(/^Put elsewhere on posts from/);
   await expect.element(page.getByTestId('recovery-cell')).not.toBeInTheDocument();
 });
 

@@ -15,7 +15,7 @@ import { clock, counted } from '../../ui/format';
 import { ChoiceField } from '../../ui/fields/fields';
 import { SmallButton } from '../../ui/SmallButton';
 import { CellCard } from './CellCard';
-import { isForGoal, titleOf } from './cells';
+import { isForGoal, KIND_WORDS, titleOf } from './cells';
 import { cancelRecovery, createShown } from './recoveries';
 import { Cells, Thumbnails } from './RecoveryCells';
 import { RecoveryStart } from './RecoveryStart';
@@ -62,7 +62,10 @@ function Earlier(props: {
     ...(props.shown === undefined ? [['', 'choose'] as const] : []),
     ...props.all.map((one) => {
       const where = props.isHere(one) ? one.map : `${one.map}, another map`;
-      return [one.id, `${one.id.replace('recovery-', '')}: ${one.kind}, ${where}`] as const;
+      return [
+        one.id,
+        `${one.id.replace('recovery-', '')}: ${KIND_WORDS[one.kind]}, ${where}`,
+      ] as const;
     }),
   ];
   return (
@@ -115,7 +118,7 @@ function Report(props: { lab: Session & Trial & Notices; report: RecoveryReport 
     <>
       <p>From where does each controller still deliver the bead after a disturbance?</p>
       <p data-testid="recovery-progress" class="hint" role="status">
-        {props.report.kind} on {props.report.map}
+        {KIND_WORDS[props.report.kind]} on {props.report.map}
         {props.report.map === lab.scene()?.map
           ? ''
           : ', which is another map than that of the session,'}{' '}

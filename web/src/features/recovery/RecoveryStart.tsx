@@ -11,16 +11,12 @@ import { CheckField, ChoiceField, NumberField } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
 import { numberOf } from '../../ui/fields/number';
 import { clock, counted, roughly } from '../../ui/format';
+import { KIND_WORDS } from './cells';
 import { startRecovery } from './recoveries';
 import { cellsMost } from './size';
 import { change, draft, edits, trial_s } from './store';
 
-const KINDS: readonly (readonly [RecoveryKind, string])[] = [
-  ['place', 'Put elsewhere'],
-  ['push', 'Push'],
-  ['drag', 'Pull by hand'],
-  ['blind', 'Blind tracker'],
-];
+const KINDS = Object.entries(KIND_WORDS) as [RecoveryKind, string][];
 const COLUMNS: Readonly<Record<RecoveryKind, string>> = {
   place: 'Columns',
   push: 'Directions',

@@ -2,7 +2,12 @@
 
 import type { Vec2 } from '../../lab/geometry';
 import { labelOf } from '../../lab/parameters';
-import type { RecoveryCell, RecoveryReport, RecoveryTrial } from '../../net/protocol.gen';
+import type {
+  RecoveryCell,
+  RecoveryKind,
+  RecoveryReport,
+  RecoveryTrial,
+} from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
 
 /** How a cell is drawn. */
@@ -11,6 +16,14 @@ export interface Look {
   /** 0 to 1; the stronger, the more opaque. */
   readonly strength: number;
 }
+
+/** The disturbance, as it is chosen. */
+export const KIND_WORDS: Readonly<Record<RecoveryKind, string>> = {
+  place: 'Put elsewhere',
+  push: 'Push',
+  drag: 'Pull by hand',
+  blind: 'Blind tracker',
+};
 
 const CM2_PER_M2 = 1e4;
 const MM_PER_M = 1000;
@@ -56,11 +69,12 @@ export function looksOf(
   );
 }
 
-/** `2 delivered, 1 lost (lifted off); median 12.3 s`. */
+/** `2 delivered, 1 not delivered (lifted off); median 12.3 s`. */
 export function cellWords(row: RecoveryCell): string {
   const parts = [`${row.delivered} delivered`];
   if (row.late > 0) parts.push(`${row.late} late`);
-  if (row.lost > 0) parts.push(`${row.lost} lost${row.why === null ? '' : ` (${row.why})`}`);
+  if (row.lost > 0)
+    parts.push(`${row.lost} not delivered${row.why === null ? '' : ` (${row.why})`}`);
   const median = row.time_s_median === null ? '' : `; median ${fixed(row.time_s_median, 1)} s`;
   return `${parts.join(', ')}${median}`;
 }
@@ -83,9 +97,9 @@ export function spotWords(row: RecoveryCell, kind: RecoveryReport['kind']): stri
 export const squareCentimetres = (area_m2: number): string =>
   `${fixed(area_m2 * CM2_PER_M2, 0)} cm²`;
 
-/** `trial 2: lost, stopped: 150 steps …, 42.0 s`. */
+/** `trial 2: not delivered (stopped: 150 steps …), 42.0 s`. */
 export function trialWords(trial: RecoveryTrial): string {
-  const end = trial.outcome === 'lost' ? `lost: ${trial.phase}` : trial.outcome;
+  const end = trial.outcome === 'lost' ? `not delivered (${trial.phase})` : trial.outcome;
   return `trial ${trial.repeat + 1}: ${end}, ${fixed(trial.time_s, 1)} s`;
 }
 

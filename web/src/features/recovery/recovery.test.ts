@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import type { RecoveryCell, RecoveryReport } from '../../net/protocol.gen';
+import type { RecoveryCell, RecoveryReport, RecoveryTrial } from '../../net/protocol.gen';
 import {
   cellAt,
   cellWords,
@@ -8,6 +8,7 @@ import {
   looksOf,
   spotWords,
   squareCentimetres,
+  trialWords,
 } from './cells';
 import { cellsMost, trialSeconds } from './size';
 import { drawingOf, nextShape } from './shapes';
@@ -59,7 +60,11 @@ it('a difference says who delivers more, and how much', () => {
 
 it('says what happened and what was done', () => {
   const lost = row({ delivered: 1, lost: 2, why: 'lifted off', time_s_median: null });
-  expect(cellWords(lost)).toBe('1 delivered, 2 lost (lifted off)');
+  expect(cellWords(lost)).toBe('1 delivered, 2 not delivered (lifted off)');
+  const trial = { repeat: 1, outcome: 'lost', phase: 'stopped: 150 steps', time_s: 42 };
+  expect(trialWords(trial as RecoveryTrial)).toBe(
+    'trial 2: not delivered (stopped: 150 steps), 42.0 s',
+  );
   expect(cellWords(row({ late: 1 }))).toBe('3 delivered, 1 late; median 12.3 s');
   expect(spotWords(place(1, 0.1), 'place')).toBe('bead put to x 0.100 m, y −0.350 m');
   const push = row({ direction_rad: Math.PI / 2, strength: 0.005 });
