@@ -286,6 +286,10 @@ test('returns to the session that it was opened from', LONG, async ({ page }) =>
     await lab.button('More').click();
     await page.getByRole('link', { name: 'Present' }).click();
     await page.getByRole('heading', { name: 'Demonstration' }).waitFor({ state: 'attached' });
+    // *Leave* covers no line of the view.
+    const slow = await lab.boxOf(page.locator('.scene-slow'));
+    const link = await lab.boxOf(page.getByRole('link', { name: 'Leave' }));
+    expect(slow.y).toBeGreaterThan(link.y + link.height);
     await leave();
     await page.waitForURL(url);
     await lab.live();
