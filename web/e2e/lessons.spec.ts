@@ -184,6 +184,9 @@ test('does the first lesson by keyboard, and remembers it after a reload', async
   await expect(page.getByText('1 of 12 done')).toBeVisible();
   await page.getByRole('button', { name: FIRST.title }).click();
   await expect(page.getByLabel(second)).toBeChecked();
+  for (let i = 0; i < 2; i++) await lab.button('Next').press('Enter');
+  await lab.button('Next lesson').press('Enter');
+  await expect(page.getByRole('heading', { name: 'Lose the bead' })).toBeVisible();
 });
 
 test('allows a viewer to predict, but not to set up a run', async ({ lab, openLab }) => {

@@ -225,6 +225,9 @@ export const LESSONS: Section = {
     'button Finish': {
       elsewhere: 'does the first lesson by keyboard, and remembers it after a reload',
     },
+    'button Next lesson': {
+      elsewhere: 'does the first lesson by keyboard, and remembers it after a reload',
+    },
     'button All lessons': { see: lessonHeadings, ready: openLesson },
     'button Start over': { see: (lab) => lab.button('Start over').isDisabled() },
   },

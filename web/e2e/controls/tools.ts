@@ -176,6 +176,7 @@ export const PLOTS: Section = {
     'checkbox Error y': box,
     'checkbox Distance e, true': box,
     'combobox Time window of the plots': { see: valueOf },
+    'checkbox Large plots': box,
     'button Save CSV': { see: downloads },
     'button Save PNG': { see: downloads },
     'button Save SVG': { see: downloads },
