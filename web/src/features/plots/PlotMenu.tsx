@@ -87,6 +87,14 @@ export function PlotMenu(props: {
               </label>
             )}
           </For>
+          <label>
+            <input
+              type="checkbox"
+              checked={hasLargeLanes()}
+              onChange={(event) => setLargeLanes(event.currentTarget.checked)}
+            />
+            Large plots
+          </label>
           <label class="plot-window">
             Time window
             <select
@@ -101,14 +109,6 @@ export function PlotMenu(props: {
                 )}
               </For>
             </select>
-          </label>
-          <label>
-            <input
-              type="checkbox"
-              checked={hasLargeLanes()}
-              onChange={(event) => setLargeLanes(event.currentTarget.checked)}
-            />
-            Large plots
           </label>
           <div
             class="buttons"
