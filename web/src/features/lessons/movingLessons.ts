@@ -43,7 +43,7 @@ export const THE_GUT_MOVES: ExperimentLesson = {
       layers: ['plan', 'obstacles'],
       words: [
         'Another map with narrower passages, stronger waves, and ERRT. It plans again whenever a wall comes into its path.',
-        'Where it finds no path between closed walls, it waits. Then the panel Controller says why the arm holds.',
+        'Where it finds no path between closed walls, it waits. Then the panel *Now* says why the arm holds.',
       ],
       tasks: [DELIVERED],
     },
