@@ -20,6 +20,7 @@ mod saved_sessions;
 mod sessions;
 mod site;
 mod socket;
+mod visitors;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -54,6 +55,7 @@ use routes::maps::Maps;
 use routes::values::Atlases;
 use saved_sessions::SavedSessions;
 use sessions::{SessionSettings, Sessions};
+use visitors::Visitors;
 
 /// Number of long computations that run at the same time; others wait.
 const WORKERS: usize = 4;
@@ -96,6 +98,10 @@ pub struct Settings {
     pub sessions: usize,
     /// Time after which a session without browsers is parked.
     pub park_after: Duration,
+    /// Time after which a visitor's own session ends that has no operator.
+    pub end_after: Duration,
+    /// Whether `/` shows the session `main` even if another visitor operates it.
+    pub shows_main: bool,
     /// Scenario of new sessions.
     pub opening: Scenario,
     /// Whether saved sessions begin with that scenario, too.
@@ -116,6 +122,8 @@ impl Settings {
             retention: Retention::default(),
             sessions: 8,
             park_after: Duration::from_secs(600),
+            end_after: Duration::from_secs(120),
+            shows_main: false,
             opening: Scenario::idle("posts", 1),
             start_over: false,
             twin: None,
@@ -132,6 +140,9 @@ pub struct Server {
     page: Page,
     gpu: Arc<Gpu>,
     access: Access,
+    visitors: Visitors,
+    /// Whether `/` shows the session `main` even if another visitor operates it.
+    shows_main: bool,
     counters: Arc<Counters>,
     /// Recordings of the sessions.
     recordings: Arc<Archive>,
@@ -180,10 +191,23 @@ impl Server {
         access: Access,
         stopping: watch::Receiver<bool>,
     ) -> Result<Arc<Self>, ServeError> {
-        let Settings { data, retention, sessions, park_after, opening, start_over, twin, page, base } = settings;
+        let Settings {
+            data,
+            retention,
+            sessions,
+            park_after,
+            end_after,
+            shows_main,
+            opening,
+            start_over,
+            twin,
+            page,
+            base,
+        } = settings;
         let recordings = Archive::new(data.join("recordings"), retention);
         let maps = Maps::in_folder(data.join("maps"), opening.map.clone());
-        let settings = SessionSettings { most: sessions, park_after, opening };
+        let settings = SessionSettings { most: sessions, park_after, end_after, opening };
+        let visitors = Visitors::in_file(&data.join("visitors.key"))?;
         let saved = SavedSessions::in_folder(data.join("sessions"), start_over);
         let policies = Arc::new(Library::in_folder(data.join("policies")));
         let catalog = Catalog { maps: maps.all.clone(), policies: policies.clone() };
@@ -207,6 +231,8 @@ impl Server {
             base,
             gpu,
             access,
+            visitors,
+            shows_main,
             counters: Arc::default(),
             recordings,
             maps,
@@ -262,10 +288,11 @@ impl Server {
         working.await.map_err(Problem::internal)
     }
 
-    /// Parks sessions without browsers and forgets inactive clients, periodically.
+    /// Parks sessions without browsers, ends those that nothing steers, and forgets inactive clients, periodically.
     async fn sweep(&self) {
         loop {
-            tokio::time::sleep(SWEEP_EVERY.min(self.sessions.park_after())).await;
+            tokio::time::sleep(SWEEP_EVERY.min(self.sessions.shortest_wait())).await;
+            self.sessions.end_unsteered().await;
             self.sessions.park().await;
             self.access.forget();
         }

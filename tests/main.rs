@@ -53,3 +53,4 @@ mod surveys;
 mod tracker;
 mod trainings;
 mod viewer;
+mod visitors;

@@ -5,6 +5,7 @@ mod child;
 mod laboratory;
 mod plain;
 mod recordings;
+pub mod visitor;
 
 use std::sync::{Arc, OnceLock};
 
@@ -15,6 +16,7 @@ pub use child::{Ferry, ended_at_once, ferry, memory_mb, refused_at_once};
 pub use laboratory::{Answer, Laboratory};
 pub use plain::{exchange, read_answer};
 pub use recordings::{files, read, tool};
+pub use visitor::Visitor;
 
 pub fn gpu() -> Arc<Gpu> {
     static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();

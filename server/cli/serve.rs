@@ -187,15 +187,16 @@ async fn serve(arguments: &Arguments, page: Page, twin: Option<Arc<Twin>>) -> an
     let (stop, stopping) = watch::channel(false);
     let retention = Retention { max_parts: arguments.keep, max_bytes: arguments.keep_mb.saturating_mul(1 << 20) };
     let settings = http::Settings {
-        data: arguments.data.clone(),
         retention,
         sessions: arguments.sessions.into(),
         park_after: Duration::from_secs(60 * u64::from(arguments.park_after)),
+        shows_main: arguments.scenario.is_some() || twin.is_some() || arguments.robot_server.is_some(),
         opening,
         start_over: arguments.scenario.is_some(),
         twin: twin.clone(),
         page,
         base: arguments.base_path.clone(),
+        ..http::Settings::in_folder(arguments.data.clone())
     };
     let server = http::Server::new(gpu, settings, access, stopping.clone())?;
     if let Some(model) = model {

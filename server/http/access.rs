@@ -4,6 +4,7 @@
 pub mod login;
 mod origins;
 mod rates;
+pub mod signed;
 mod token;
 
 use std::net::{IpAddr, SocketAddr};

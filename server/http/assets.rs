@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 use axum::body::{Body, Bytes};
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
-use axum::response::{IntoResponse, Response};
+use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 use serde::de::{IntoDeserializer, value::Error as ValueError};
 use xxhash_rust::xxh3::xxh3_64;
@@ -144,10 +144,20 @@ fn accepts(headers: &HeaderMap, coding: &str) -> bool {
     weight(coding).or_else(|| weight("*")).is_some_and(|weight| weight > 0.0)
 }
 
-/// `GET /`: the page with the session `main`. The session is restarted if a fault has ended it.
+/// `GET /`: the page with the session `main`, if the visitor can operate it. If another one does, it leads to the visitor's
+/// own session, if there is one. The session `main` is restarted if a fault has ended it.
 pub async fn main_session(State(server): State<Arc<Server>>, headers: HeaderMap) -> Result<Response, Problem> {
-    server.sessions.open(MAIN).await?;
-    Ok(server.page.send("index.html", &headers))
+    let main = server.sessions.open(MAIN).await?;
+    let visitor = server.visitors.meet(&headers).map_err(Problem::internal)?;
+    let own = visitor.own.as_deref().filter(|own| server.sessions.is_own(own, &visitor.id));
+    let mut response = match own {
+        Some(own) if !server.shows_main && !main.is_open_to(&visitor.id) => {
+            Redirect::to(&format!("{}/s/{own}", server.base)).into_response()
+        }
+        _ => server.page.send("index.html", &headers),
+    };
+    server.remember(&visitor, &headers, &mut response);
+    Ok(response)
 }
 
 /// The address of a session's page.
@@ -175,8 +185,12 @@ pub async fn named_session(
         );
         return Err(Problem::new(StatusCode::FORBIDDEN, "foreign_site", detail).field("Sec-Fetch-Site"));
     }
-    server.sessions.open(&name).await?;
-    Ok(server.page.send("index.html", &headers))
+    let visitor = server.visitors.meet(&headers).map_err(Problem::internal)?;
+    let owner = Some(visitor.id.clone()).filter(|_| visitor.own.as_deref() == Some(&name));
+    server.sessions.open_for(&name, owner).await?;
+    let mut response = server.page.send("index.html", &headers);
+    server.remember(&visitor, &headers, &mut response);
+    Ok(response)
 }
 
 /// `GET /demo`: the demonstration, with the session `demo`.

@@ -3,6 +3,7 @@
 mod catalog;
 mod comparison;
 mod course;
+mod encoded;
 mod frames;
 mod hand;
 mod hub;
@@ -15,7 +16,7 @@ use std::time::Duration;
 
 use axum::extract::State;
 use axum::extract::ws::Message;
-use axum::http::StatusCode;
+use axum::http::HeaderMap;
 use axum::response::Response;
 use futures_util::future::BoxFuture;
 use futures_util::stream::FuturesUnordered;
@@ -28,12 +29,13 @@ use utoipa::IntoParams;
 
 use self::catalog::Feed;
 pub use self::catalog::{Lists, keep as keep_lists};
+pub use self::encoded::Encoded;
 use self::frames::json;
 use self::hand::Hand;
-pub use self::hub::{CameraWatch, Encoded, Hub};
+pub use self::hub::{CameraWatch, Hub};
 use self::outbox::Outbox;
 use self::seat::Seat;
-use self::seats::Seats;
+use self::seats::{Guest, Seats};
 use super::Server;
 use super::path::{Path, Query, SessionPath};
 use super::problem::Problem;
@@ -78,14 +80,13 @@ pub async fn live(
     State(server): State<Arc<Server>>,
     Path(SessionPath { id }): Path<SessionPath>,
     Query(LiveQuery { seat }): Query<LiveQuery>,
+    headers: HeaderMap,
     upgrade: Result<Upgrade, Problem>,
 ) -> Result<Response, Problem> {
     let hub = server.sessions.find(&id).ok_or_else(|| Problem::not_found("session", &id))?;
     let upgrade = upgrade?;
-    let seat = Seat::take(&hub, seat::key(seat)?).ok_or_else(|| {
-        let detail = format!("session {id:?} has {} browsers already", hub.viewers());
-        Problem::new(StatusCode::SERVICE_UNAVAILABLE, "too_many_viewers", detail)
-    })?;
+    let seat =
+        Seat::take(&hub, Guest { key: seat::key(seat)?, visitor: server.visitors.of(&headers).map(|one| one.id) })?;
     let large = server.large_seats.clone().try_acquire_owned();
     let limits = if large.is_ok() { LIMITS } else { SMALL };
     let serving = server.clone();
@@ -142,7 +143,7 @@ impl Connection {
         let mut out = Outbox::new(&self.hub);
         let mut goes_on = true;
         let hand = self.hand.clone();
-        let now = *seats.borrow_and_update();
+        let now = seats.borrow_and_update().clone();
         self.greet(&now).await?;
         out.past_version = out.encoded.borrow().past_version;
         self.send_newest(&mut out).await?;
@@ -172,7 +173,7 @@ impl Connection {
                     if changed.is_err() {
                         return self.socket.close("the session has ended").await;
                     }
-                    let now = *seats.borrow_and_update();
+                    let now = seats.borrow_and_update().clone();
                     if now.operator != Some(self.seat.own) {
                         self.hand.release().await;
                     }
@@ -307,7 +308,7 @@ impl Connection {
                 self.hub.reseat(|seats, now| seats.release(own, now));
             }
             message => {
-                let seats = *self.hub.seats().borrow();
+                let seats = self.hub.seats().borrow().clone();
                 if seats.operator != Some(own) {
                     let text = "another browser has control; take control first";
                     return Err(Refusal::new(RefusalCode::NotOperator, text, None));

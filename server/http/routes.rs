@@ -61,6 +61,7 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(maps::file, maps::delete))
         .routes(routes!(maps::check))
         .routes(routes!(sessions::sessions, sessions::create_session))
+        .routes(routes!(sessions::open_own))
         .routes(routes!(sessions::session, sessions::delete_session))
         .routes(routes!(sessions::state))
         .routes(routes!(sessions::camera))

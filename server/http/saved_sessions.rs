@@ -63,6 +63,10 @@ impl SavedSessions {
         self.folder.join(format!("{id}.{ENDING}"))
     }
 
+    pub fn has(&self, id: &str) -> bool {
+        self.path(id).exists()
+    }
+
     /// What a session begins with. After a fault, it does not go on from a state that may cause the fault again.
     pub fn opening(&self, id: &str, after_fault: bool) -> Opening {
         let path = self.path(id);

@@ -1,5 +1,8 @@
-//! The sessions of a server: opened by name, parked without viewers, closed when others need their place.
+//! The sessions of a server: opened by name, parked without viewers, closed when others need their place. A visitor's own
+//! end when nothing has steered them for a while.
 
+mod names;
+mod place;
 #[cfg(test)]
 mod tests;
 
@@ -11,6 +14,8 @@ use std::time::Duration;
 use axum::http::StatusCode;
 use tokio::sync::watch;
 
+use self::names::NAME_LENGTH;
+pub use self::names::is_name;
 use super::live::Hub;
 use super::problem::Problem;
 use super::saved_sessions::{SAVE_EVERY, SavedSessions};
@@ -26,8 +31,6 @@ use ferry_ur::{Robot, Twin};
 pub const MAIN: &str = "main";
 /// The session of the demonstration.
 pub const DEMO: &str = "demo";
-/// Longest name of a session.
-const NAME_LENGTH: usize = 32;
 /// Prefix of names given by the server.
 const NUMBERED: &str = "session-";
 /// A session that takes longer to start hangs.
@@ -42,6 +45,8 @@ pub struct SessionSettings {
     pub most: usize,
     /// A session without viewers is parked after this time.
     pub park_after: Duration,
+    /// A visitor's own session without an operator ends after this time.
+    pub end_after: Duration,
     /// Scenario of new sessions.
     pub opening: Scenario,
 }
@@ -61,31 +66,10 @@ pub struct Sessions {
     /// The names that are being opened. A lock is held meanwhile, so that two requests for one name get the same session, and
     /// a slow one keeps no other from its own.
     opening: Mutex<BTreeMap<String, Arc<tokio::sync::Mutex<()>>>>,
-    /// Names of the sessions that have a place and begin.
-    placed: Mutex<Vec<String>>,
+    /// Names of the sessions that have a place and begin, and whose own they are.
+    placed: Mutex<Vec<(String, Option<Arc<str>>)>>,
     /// Number of sessions created so far, for their names.
     made: AtomicU64,
-}
-
-/// Whether a text is a valid session name: it becomes part of addresses and of recordings' names.
-pub fn is_name(name: &str) -> bool {
-    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    (1..=NAME_LENGTH).contains(&name.len()) && name.chars().all(fits) && !name.starts_with('-')
-}
-
-/// A place among the sessions while one begins.
-struct Place {
-    sessions: Arc<Sessions>,
-    name: String,
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        let mut placed = self.sessions.placed.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(own) = placed.iter().position(|name| *name == self.name) {
-            placed.swap_remove(own);
-        }
-    }
 }
 
 impl Sessions {
@@ -110,7 +94,7 @@ impl Sessions {
             placed: Mutex::default(),
             made: AtomicU64::new(0),
         };
-        let main = sessions.start(MAIN, sessions.settings.opening.clone(), false)?;
+        let main = sessions.start(MAIN, sessions.settings.opening.clone(), false, None)?;
         sessions.insert(&main);
         Ok(sessions)
     }
@@ -125,8 +109,9 @@ impl Sessions {
         self.twin.as_ref().filter(|_| id == MAIN)
     }
 
-    pub fn park_after(&self) -> Duration {
-        self.settings.park_after
+    /// The shortest time after which a session is parked or ends.
+    pub fn shortest_wait(&self) -> Duration {
+        self.settings.park_after.min(self.settings.end_after)
     }
 
     pub fn all(&self) -> Vec<Arc<Hub>> {
@@ -139,6 +124,11 @@ impl Sessions {
 
     /// The session of a name; a new one if it does not exist or has ended.
     pub async fn open(self: &Arc<Self>, name: &str) -> Result<Arc<Hub>, Problem> {
+        self.open_for(name, None).await
+    }
+
+    /// The same; a new one is a visitor's own.
+    pub async fn open_for(self: &Arc<Self>, name: &str, owner: Option<Arc<str>>) -> Result<Arc<Hub>, Problem> {
         // Requests for a live session do not wait for a session that is starting.
         match self.find(name).filter(|hub| !hub.has_ended()) {
             Some(hub) => {
@@ -147,12 +137,12 @@ impl Sessions {
             }
             None => {
                 let (sessions, name) = (self.clone(), name.to_owned());
-                to_its_end(async move { sessions.begin(&name).await }).await
+                to_its_end(async move { sessions.begin(&name, owner).await }).await
             }
         }
     }
 
-    async fn begin(self: &Arc<Self>, name: &str) -> Result<Arc<Hub>, Problem> {
+    async fn begin(self: &Arc<Self>, name: &str, owner: Option<Arc<str>>) -> Result<Arc<Hub>, Problem> {
         if !is_name(name) || name.starts_with(NUMBERED) && self.find(name).is_none() {
             let detail = format!(
                 "{name:?} is not a valid session name: use 1 to {NAME_LENGTH} of a to z, 0 to 9 and -; it must not begin with \
@@ -172,7 +162,7 @@ impl Sessions {
                 if let Some(ended) = found {
                     self.end(ended).await;
                 }
-                self.make(name.to_owned(), self.settings.opening.clone(), after_fault).await
+                self.make(name.to_owned(), self.settings.opening.clone(), after_fault, owner).await
             }
         }
     }
@@ -182,9 +172,21 @@ impl Sessions {
         let sessions = self.clone();
         to_its_end(async move {
             let number = sessions.made.fetch_add(1, Ordering::Relaxed) + 1;
-            sessions.make(format!("{NUMBERED}{number}"), scenario, false).await
+            sessions.make(format!("{NUMBERED}{number}"), scenario, false, None).await
         })
         .await
+    }
+
+    /// A new session of a visitor's own.
+    pub async fn open_own(self: &Arc<Self>, owner: Arc<str>) -> Result<Arc<Hub>, Problem> {
+        let is_taken = |name: &str| self.find(name).is_some() || self.saved.has(name);
+        let name = names::free_name(is_taken).map_err(Problem::internal)?;
+        self.open_for(&name, Some(owner)).await
+    }
+
+    /// Whether `name` is open as a visitor's own.
+    pub fn is_own(&self, name: &str, visitor: &str) -> bool {
+        self.find(name).is_some_and(|hub| !hub.has_ended() && hub.owner().is_some_and(|owner| **owner == *visitor))
     }
 
     /// The lock of a name. Free locks are dropped.
@@ -194,11 +196,18 @@ impl Sessions {
         opening.entry(name.to_owned()).or_default().clone()
     }
 
-    async fn make(self: &Arc<Self>, name: String, scenario: Scenario, after_fault: bool) -> Result<Arc<Hub>, Problem> {
-        let place = self.make_room(&name).await?;
+    async fn make(
+        self: &Arc<Self>,
+        name: String,
+        scenario: Scenario,
+        after_fault: bool,
+        owner: Option<Arc<str>>,
+    ) -> Result<Arc<Hub>, Problem> {
+        let place = self.make_room(&name, owner.as_ref()).await?;
         let (sessions, id) = (self.clone(), name.clone());
         // This creates a file, a camera and a thread. The place is taken until it has ended, however late.
-        let mut starting = tokio::task::spawn_blocking(move || (sessions.start(&id, scenario, after_fault), place));
+        let mut starting =
+            tokio::task::spawn_blocking(move || (sessions.start(&id, scenario, after_fault, owner), place));
         let Ok(started) = tokio::time::timeout(BEGIN_WITHIN, &mut starting).await else {
             tracing::error!(session = name, "session does not begin: it is left behind");
             let detail = format!("session {name:?} did not begin within {} s", BEGIN_WITHIN.as_secs());
@@ -220,43 +229,13 @@ impl Sessions {
         self.hubs.write().unwrap_or_else(PoisonError::into_inner).insert(hub.id.clone(), hub.clone());
     }
 
-    /// Takes a place, if one is free.
-    fn free_place(self: &Arc<Self>, name: &str) -> Option<Place> {
-        let mut placed = self.placed.lock().unwrap_or_else(PoisonError::into_inner);
-        let open = self.all();
-        let begin = placed.iter().filter(|name| open.iter().all(|hub| hub.id != **name)).count();
-        (open.len() + begin < self.settings.most).then(|| {
-            placed.push(name.to_owned());
-            Place { sessions: self.clone(), name: name.to_owned() }
-        })
-    }
-
-    /// Takes a place. If all are taken, closes the session that has been parked longest; its recordings stay.
-    async fn make_room(self: &Arc<Self>, name: &str) -> Result<Place, Problem> {
-        if let Some(place) = self.free_place(name) {
-            return Ok(place);
-        }
-        let mut parked: Vec<_> = self.all().into_iter().filter(|hub| hub.id != MAIN && hub.is_parked()).collect();
-        parked.sort_by_key(|hub| std::cmp::Reverse(hub.unwatched_for()));
-        for hub in parked {
-            let lock = self.lock_of(&hub.id);
-            let Ok(_it_is_not_opening) = lock.try_lock() else { continue };
-            // It goes on when it is opened again, so it must be on the disk. A browser may have come meanwhile.
-            if self.saved.save([hub.clone()]).await.is_err() || !hub.is_parked() {
-                continue;
-            }
-            tracing::info!(session = hub.id, "parked session makes way for another");
-            self.end(hub).await;
-            if let Some(place) = self.free_place(name) {
-                return Ok(place);
-            }
-        }
-        let detail =
-            format!("there are {} sessions already, and all are in use: one has to end first", self.settings.most);
-        Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail))
-    }
-
-    fn start(&self, id: &str, scenario: Scenario, after_fault: bool) -> Result<Arc<Hub>, TrialError> {
+    fn start(
+        &self,
+        id: &str,
+        scenario: Scenario,
+        after_fault: bool,
+        owner: Option<Arc<str>>,
+    ) -> Result<Arc<Hub>, TrialError> {
         let sink = self.sink(id);
         let is_saved = id != DEMO && !id.starts_with(NUMBERED);
         let opening = if is_saved { self.saved.opening(id, after_fault) } else { Opening::Fresh };
@@ -275,7 +254,7 @@ impl Sessions {
             tracing::warn!(%error, "the session mirrors no robot");
         }
         tracing::info!(session = id, "session opened");
-        Ok(Hub::start(id, session, self.gpu.clone()))
+        Ok(Hub::start(id, session, self.gpu.clone(), owner, self.twin_of(id).cloned()))
     }
 
     fn sink(&self, id: &str) -> Box<dyn Sink> {
@@ -325,6 +304,21 @@ impl Sessions {
                 // An ended session needs no parking; a hanging one must not block the others.
                 let _ = tokio::time::timeout(END_WITHIN, hub.session.send(Command::Pause)).await;
                 tracing::info!(session = hub.id, "session parked: no browser watches it");
+            }
+        }
+    }
+
+    /// Ends the visitors' own sessions that have had no operator for long. What was done in one is saved.
+    pub async fn end_unsteered(&self) {
+        for hub in self.all().into_iter().filter(|hub| hub.owner().is_some()) {
+            // What was saved last stays if it cannot be saved now.
+            let after = self.settings.end_after;
+            if hub.unsteered_for() >= after
+                && self.saved.save([hub.clone()]).await.is_ok()
+                && hub.close_if_unsteered(after)
+            {
+                tracing::info!(session = hub.id, "session ended: nothing steers it");
+                self.end(hub).await;
             }
         }
     }

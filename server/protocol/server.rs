@@ -88,12 +88,14 @@ pub struct Hello {
     /// as `epoch`, and is refused if it is not the current one.
     #[ts(type = "number")]
     pub epoch: u64,
-    /// Whether the session has an operator.
+    /// Whether the session has an operator, or one whose page may be loading again.
     pub operator_present: bool,
     /// Whether this browser is the operator and another one requests control.
     pub asked: bool,
     /// Whether this browser requests control.
     pub asks: bool,
+    /// Requests of other browsers that are answered before that of this one.
+    pub ahead: u32,
     /// During a request: seconds until the operator loses control if it does nothing. Each of its commands begins them again.
     pub answer_within_s: Option<f64>,
     /// Graphics adapter that renders the camera.

@@ -65,7 +65,7 @@ test('passes released control to the viewer that requested it', async ({ lab, op
 test('a viewer opens a session of its own with one press', async ({ lab, openLab, server }) => {
   const viewer = await openLab();
   await viewer.isRole('viewer');
-  await viewer.page.getByRole('link', { name: 'Open your own' }).click();
+  await viewer.page.getByRole('button', { name: 'Open your own' }).click();
   await viewer.isRole('operator');
   await until('its own session', () => viewer.hello.session !== lab.hello.session);
   await lab.isRole('operator');

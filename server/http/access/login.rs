@@ -8,11 +8,11 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use axum::extract::{ConnectInfo, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use cookie::{Cookie, CookieJar, Key, SameSite};
+use cookie::{Cookie, Key, SameSite};
 use serde::Deserialize;
 use utoipa::ToSchema;
 
-use super::Client;
+use super::{Client, signed};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::problem::Problem;
@@ -116,21 +116,13 @@ fn seconds(time: SystemTime) -> u64 {
 }
 
 fn set(cookie: Cookie<'static>, key: &Key) -> Response {
-    let mut jar = CookieJar::new();
-    jar.signed_mut(key).add(cookie);
-    let written = jar.get(NAME).map(ToString::to_string).unwrap_or_default();
-    (StatusCode::NO_CONTENT, [(header::SET_COOKIE, written)]).into_response()
+    (StatusCode::NO_CONTENT, [(header::SET_COOKIE, signed::written(cookie, key))]).into_response()
 }
 
 /// The number in a cookie with a valid signature that has not expired.
 pub fn valid_login(headers: &HeaderMap, key: &Key) -> Option<String> {
-    let texts = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
-    let signed = texts.flat_map(Cookie::split_parse).flatten().filter(|cookie| cookie.name() == NAME);
-    signed.into_iter().find_map(|cookie| {
-        let mut jar = CookieJar::new();
-        jar.add_original(cookie.into_owned());
-        let cookie = jar.signed(key).get(NAME)?;
-        let (number, ends) = cookie.value().split_once('.')?;
+    signed::values(headers, NAME, key).into_iter().find_map(|value| {
+        let (number, ends) = value.split_once('.')?;
         (ends.parse::<u64>().ok()? > seconds(SystemTime::now())).then(|| number.to_owned())
     })
 }

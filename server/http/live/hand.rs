@@ -8,6 +8,7 @@ use tokio::sync::Notify;
 use tokio::time::Instant;
 
 use super::hub::Hub;
+use super::seats::Seats;
 use ferry_core::session::Command;
 use ferry_core::trial::Input;
 
@@ -68,7 +69,7 @@ impl Hand {
     pub async fn watch(self: Arc<Self>) {
         loop {
             tokio::time::sleep(BEAT).await;
-            self.hub.reseat(|seats, now| seats.take_if_unanswered(self.own, now));
+            self.hub.reseat(Seats::settle);
             if self.hub.seats().borrow().operator != Some(self.own) {
                 self.release().await;
             } else if self.is_silent() && self.release().await {

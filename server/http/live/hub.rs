@@ -4,60 +4,22 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
 
-use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use jiff::Timestamp;
 use tokio::sync::{Semaphore, watch};
 use tokio::time::Instant;
 
 use super::comparison;
-use super::course::{self, Part};
-use super::frames::{BINARY_HEAD, binary, json};
+use super::encoded::{self, Encoded};
+use super::frames::json;
 use super::seats::Seats;
-use crate::protocol::{
-    BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
-    ServerMessage, StateMessage,
-};
-use crate::session::{CommandError, SessionHandle, View};
+use crate::protocol::{Hello, PROTOCOL_VERSION, Role, ServerMessage};
+use crate::session::{CommandError, SessionHandle};
 use ferry_camera::Gpu;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
 use ferry_core::scenario::ControllerName;
 use ferry_core::session::Recalled;
-
-/// Camera frames are sent at most thirty times a second.
-const CAMERA_EVERY: Duration = Duration::from_millis(33);
-const JPEG_QUALITY: u8 = 85;
-
-/// The newest messages, ready to send. Parts that did not change are shared with the last one.
-#[derive(Clone)]
-pub struct Encoded {
-    /// Number of the view.
-    pub view: u64,
-    pub state: Utf8Bytes,
-    pub scene: Utf8Bytes,
-    /// Incremented when `scene` changes.
-    pub scene_version: u64,
-    /// Incremented when the events of the trial have to be sent again.
-    pub past_version: u64,
-    pub overlay: Utf8Bytes,
-    pub seen: Utf8Bytes,
-    /// Incremented when `seen` changes.
-    pub seen_version: u64,
-    pub camera: Bytes,
-    camera_tick: u64,
-    pub observation: Bytes,
-    /// Incremented when overlay, camera or observation change.
-    pub sight_version: u64,
-    /// The part of the course that this state adds to the state before.
-    pub course: Part,
-}
-
-impl Encoded {
-    /// The camera's image as a JPEG file, and the tick at which it was taken; `None` if none could be encoded.
-    pub fn camera_jpeg(&self) -> Option<(u64, Bytes)> {
-        (!self.camera.is_empty()).then(|| (self.camera_tick, self.camera.slice(BINARY_HEAD..)))
-    }
-}
+use ferry_ur::Twin;
 
 /// A session with its browsers.
 pub struct Hub {
@@ -67,6 +29,10 @@ pub struct Hub {
     gpu: Arc<Gpu>,
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
+    /// The visitor whose own session it is.
+    owner: Option<Arc<str>>,
+    /// The robot that the arm mirrors. Who becomes the operator does not drive it yet.
+    twin: Option<Arc<Twin>>,
     /// Number of open camera streams.
     camera_streams: AtomicUsize,
     encoder: Mutex<Option<tokio::task::JoinHandle<()>>>,
@@ -89,13 +55,15 @@ pub struct Hub {
 
 impl Hub {
     /// Starts encoding a session's views.
-    pub fn start(id: &str, session: SessionHandle, gpu: Arc<Gpu>) -> Arc<Self> {
+    pub fn start(
+        id: &str,
+        session: SessionHandle,
+        gpu: Arc<Gpu>,
+        owner: Option<Arc<str>>,
+        twin: Option<Arc<Twin>>,
+    ) -> Arc<Self> {
         let now = Instant::now();
-        let views = session.watch();
-        let mut encoder = Encoder::default();
-        let first = encoder.encode(&views.borrow(), true);
-        let (publish, encoded) = watch::channel(first);
-        let encoder = tokio::spawn(encode_all(encoder, views, publish));
+        let (encoded, encoder) = encoded::encode(session.watch());
         Arc::new(Self {
             id: id.to_owned(),
             session,
@@ -106,6 +74,8 @@ impl Hub {
             comparing: Arc::new(Semaphore::new(1)),
             encoded,
             seats: watch::Sender::new(Seats::new(now)),
+            owner,
+            twin,
             camera_streams: AtomicUsize::new(0),
             encoder: Mutex::new(Some(encoder)),
             closing: watch::Sender::new(false),
@@ -152,7 +122,11 @@ impl Hub {
     }
 
     pub fn viewers(&self) -> usize {
-        self.seats.borrow().viewers
+        self.seats.borrow().viewers()
+    }
+
+    pub fn owner(&self) -> Option<&Arc<str>> {
+        self.owner.as_ref()
     }
 
     /// Disconnects every browser.
@@ -219,14 +193,42 @@ impl Hub {
         self.seats.send_if_modified(|seats| {
             let now = Instant::now();
             let told = |seats: &Seats| {
-                (seats.epoch, seats.asking, seats.answers_within(now).map(|left| left.as_secs_f64().round() as u64))
+                let left_s = seats.answers_within(now).map(|left| left.as_secs_f64().round() as u64);
+                (seats.epoch, seats.is_held(), seats.asking.clone(), left_s)
             };
-            let before = told(seats);
+            let (before, operator) = (told(seats), seats.operator);
             done = Some(change(seats, now));
+            if let Some(twin) = self.twin.as_ref().filter(|_| seats.operator != operator) {
+                // Letting go is never refused.
+                let _ = twin.hold(None, now.into_std());
+            }
             before != told(seats)
         });
         self.touch();
         done.expect("the change was made")
+    }
+
+    /// Time without an operator.
+    pub fn unsteered_for(&self) -> Duration {
+        self.seats.borrow().unsteered_for(Instant::now())
+    }
+
+    /// No browser can join any more, if there has been no operator for this long. Returns whether that is so.
+    pub fn close_if_unsteered(&self, least: Duration) -> bool {
+        let mut is_closed = false;
+        self.seats.send_if_modified(|seats| {
+            is_closed = seats.close_if_unsteered(least, Instant::now());
+            false
+        });
+        is_closed
+    }
+
+    /// Whether a visitor operates it, or can.
+    pub fn is_open_to(&self, visitor: &Arc<str>) -> bool {
+        self.reseat(|seats, now| {
+            seats.settle(now);
+            seats.is_open_to(Some(visitor))
+        })
     }
 
     /// Notes who begins an attempt at a challenge.
@@ -241,6 +243,7 @@ impl Hub {
 
     pub fn hello(&self, connection: u64, key: &str, seats: &Seats, message_bytes: usize) -> Hello {
         let operates = seats.operator == Some(connection);
+        let ahead = seats.asking.iter().position(|asks| *asks == connection);
         Hello {
             protocol: PROTOCOL_VERSION,
             message_bytes: message_bytes as u32,
@@ -249,9 +252,10 @@ impl Hub {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             role: if operates { Role::Operator } else { Role::Viewer },
             epoch: seats.epoch,
-            operator_present: seats.operator.is_some(),
-            asked: operates && seats.asking.is_some(),
-            asks: seats.asking == Some(connection),
+            operator_present: seats.is_held(),
+            asked: operates && !seats.asking.is_empty(),
+            asks: ahead.is_some(),
+            ahead: ahead.unwrap_or(0) as u32,
             answer_within_s: seats.answers_within(Instant::now()).map(|left| left.as_secs_f64()),
             adapter: self.gpu.adapter_name().to_owned(),
             opened: self.opened.to_string(),
@@ -277,85 +281,5 @@ impl Drop for CameraWatch {
             hub.touch();
             hub.camera_streams.fetch_sub(1, Ordering::Relaxed);
         }
-    }
-}
-
-async fn encode_all(mut encoder: Encoder, mut views: watch::Receiver<Arc<View>>, publish: watch::Sender<Encoded>) {
-    let mut camera_sent = Instant::now();
-    loop {
-        // A frame that came too soon after the last one is sent later, unless a newer one replaces it.
-        let camera_next = camera_sent + CAMERA_EVERY;
-        tokio::select! {
-            changed = views.changed() => if changed.is_err() { return },
-            () = tokio::time::sleep_until(camera_next), if encoder.owes_sight => {}
-        }
-        let view = views.borrow_and_update().clone();
-        let camera_due = camera_sent.elapsed() >= CAMERA_EVERY;
-        let encoded = encoder.encode(&view, camera_due);
-        if camera_due {
-            camera_sent = Instant::now();
-        }
-        publish.send_replace(encoded);
-    }
-}
-
-#[derive(Default)]
-struct Encoder {
-    last: Option<Encoded>,
-    /// Version of the static parts.
-    scene_version: Option<u64>,
-    sight: Option<Arc<(u64, ferry_core::trial::Sight)>>,
-    owes_sight: bool,
-}
-
-impl Encoder {
-    fn encode(&mut self, view: &View, camera_due: bool) -> Encoded {
-        let mut next = self.last.clone().unwrap_or_else(|| Encoded {
-            view: 0,
-            state: Utf8Bytes::default(),
-            scene: Utf8Bytes::default(),
-            scene_version: 0,
-            past_version: 0,
-            overlay: Utf8Bytes::default(),
-            seen: Utf8Bytes::default(),
-            seen_version: 0,
-            camera: Bytes::new(),
-            camera_tick: 0,
-            observation: Bytes::new(),
-            sight_version: 0,
-            course: Part::default(),
-        });
-        next.view = view.number;
-        next.course = course::Part::after(&next.course, view);
-        next.state = json(&ServerMessage::State(Box::new(StateMessage::from(view))));
-        let scene_version = Some(view.scenery.version);
-        if self.scene_version != scene_version {
-            self.scene_version = scene_version;
-            next.scene = json(&ServerMessage::Scene(Box::new(SceneMessage::from(&*view.scenery))));
-            next.scene_version += 1;
-            next.past_version = view.scenery.past_version;
-        }
-        let seen = self.sight.as_ref().is_some_and(|sight| Arc::ptr_eq(sight, &view.sight));
-        self.owes_sight = !seen && !camera_due;
-        if !seen && camera_due {
-            let before = self.sight.replace(view.sight.clone());
-            let (tick, sight) = &*view.sight;
-            if !before.is_some_and(|before| before.1.known.shares_cells(&sight.known)) {
-                next.seen_version += 1;
-                next.seen = json(&ServerMessage::Seen(SeenMessage::of(&sight.known, next.seen_version)));
-            }
-            next.overlay = json(&ServerMessage::Overlay(Box::new(OverlayMessage::from(view))));
-            match sight.frame.picture.to_jpeg(JPEG_QUALITY) {
-                Ok(jpeg) => {
-                    next.camera = binary(BINARY_CAMERA_JPEG, *tick, &jpeg);
-                    next.camera_tick = *tick;
-                }
-                Err(error) => tracing::warn!(%error, "camera frame not encoded"),
-            }
-            next.observation = binary(BINARY_OBSERVATION, *tick, &sight.observation().bytes);
-            next.sight_version += 1;
-        }
-        self.last = Some(next.clone());
-        next
     }
 }

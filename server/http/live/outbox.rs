@@ -3,7 +3,8 @@
 use tokio::sync::{broadcast, watch};
 
 use super::course::Reach;
-use super::hub::{Encoded, Hub};
+use super::encoded::Encoded;
+use super::hub::Hub;
 use ferry_core::trial::Event;
 
 /// Where the messages to the browser come from, and the versions of the newest ones that it has received.

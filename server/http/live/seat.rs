@@ -5,7 +5,7 @@ use std::sync::Arc;
 use axum::http::StatusCode;
 
 use super::hub::Hub;
-use super::seats::{KeptFor, Seats};
+use super::seats::{Guest, KeptFor, NoSeat};
 use crate::http::access::Token;
 use crate::http::problem::Problem;
 use crate::protocol::Refusal;
@@ -20,8 +20,18 @@ pub struct Seat {
 }
 
 impl Seat {
-    pub fn take(hub: &Arc<Hub>, key: String) -> Option<Self> {
-        Some(Self { own: hub.reseat(Seats::join)?, key, hub: hub.clone() })
+    /// # Errors
+    /// The session has as many browsers as it can have, or has ended.
+    pub fn take(hub: &Arc<Hub>, guest: Guest) -> Result<Self, Problem> {
+        let key = guest.key.clone();
+        let own = hub.reseat(|seats, now| seats.join(guest, now)).map_err(|why| match why {
+            NoSeat::Closed => Problem::not_found("session", &hub.id),
+            NoSeat::Full => {
+                let detail = format!("session {:?} has {} browsers already", hub.id, hub.viewers());
+                Problem::new(StatusCode::SERVICE_UNAVAILABLE, "too_many_viewers", detail)
+            }
+        })?;
+        Ok(Self { own, key, hub: hub.clone() })
     }
 }
 

@@ -1,5 +1,10 @@
 //! Which browser of a session is the operator. Pure: the time is an argument.
 
+#[cfg(test)]
+mod tests;
+
+use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::time::Instant;
@@ -10,22 +15,46 @@ const VIEWERS: usize = 128;
 const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 /// An operator who keeps control is not asked again for this long.
 const KEEP_FOR: Duration = Duration::from_secs(60);
+/// The seat of a visitor whose page is gone is kept this long: the page may be loading again.
+const RETURN_WITHIN: Duration = Duration::from_secs(5);
+
+/// A connection, and what it says about its browser.
+#[derive(Clone, Debug)]
+pub struct Guest {
+    /// Of the page; the same when it connects again.
+    pub key: String,
+    /// From the cookie; `None` for a program.
+    pub visitor: Option<Arc<str>>,
+}
+
+impl Guest {
+    fn is(&self, other: &Self) -> bool {
+        self.key == other.key || self.visitor.is_some() && self.visitor == other.visitor
+    }
+}
 
 /// The operator's seat is a lease: it passes on when its holder leaves, releases control, or does not answer a request. The
-/// holder may keep it, which ends a request.
-#[derive(Clone, Copy, Debug)]
+/// holder may keep it, which ends all requests. Requests are answered in their order.
+#[derive(Clone, Debug)]
 pub struct Seats {
     /// Connection of the operator.
     pub operator: Option<u64>,
     /// Incremented when another connection becomes the operator; commands with an older epoch are refused.
     pub epoch: u64,
-    /// Connection that last requested control.
-    pub asking: Option<u64>,
-    /// Number of browsers.
-    pub viewers: usize,
+    /// Connections that request control; the first is next.
+    pub asking: VecDeque<u64>,
+    /// All connections.
+    guests: Vec<(u64, Guest)>,
     next: u64,
+    /// Whose seat it was, and when that connection was lost.
+    away: Option<(Guest, Instant)>,
+    /// Since when no connection is the operator.
+    free: Option<Instant>,
+    /// No connection can join any more.
+    is_closed: bool,
     /// Time of the operator's last command, or of the start of the lease.
     commanded: Instant,
+    /// When the first request became the first.
     asked: Instant,
     /// When the operator kept control, if a request came since the start of the lease.
     kept: Option<Instant>,
@@ -35,45 +64,124 @@ pub struct Seats {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeptFor(pub Duration);
 
+/// Why a connection cannot join.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoSeat {
+    /// There are as many browsers as a session may have.
+    Full,
+    /// The session is ending.
+    Closed,
+}
+
 impl Seats {
     pub fn new(now: Instant) -> Self {
-        Self { operator: None, epoch: 0, asking: None, viewers: 0, next: 0, commanded: now, asked: now, kept: None }
+        Self {
+            operator: None,
+            epoch: 0,
+            asking: VecDeque::new(),
+            guests: Vec::new(),
+            next: 0,
+            away: None,
+            free: Some(now),
+            is_closed: false,
+            commanded: now,
+            asked: now,
+            kept: None,
+        }
+    }
+
+    /// Number of browsers.
+    pub fn viewers(&self) -> usize {
+        self.guests.len()
+    }
+
+    fn guest(&self, connection: u64) -> Option<&Guest> {
+        self.guests.iter().find(|(own, _)| *own == connection).map(|(_, guest)| guest)
     }
 
     fn seat(&mut self, operator: Option<u64>, now: Instant) {
+        self.asking.retain(|asks| Some(*asks) != operator);
+        self.free = operator.is_none().then_some(now);
         self.operator = operator;
         self.epoch += 1;
-        self.commanded = now;
-        self.kept = None;
+        (self.commanded, self.asked) = (now, now);
+        (self.kept, self.away) = (None, None);
     }
 
-    /// Adds a connection, if there is room; it becomes the operator if the seat is free.
-    pub fn join(&mut self, now: Instant) -> Option<u64> {
-        if self.viewers == VIEWERS {
-            return None;
+    fn pass_on(&mut self, now: Instant) {
+        let next = self.asking.pop_front();
+        self.seat(next, now);
+    }
+
+    fn ask(&mut self, connection: u64, now: Instant) {
+        if self.asking.is_empty() {
+            self.asked = now;
         }
-        self.viewers += 1;
+        self.asking.push_back(connection);
+    }
+
+    /// Whether the seat is taken, or kept for a visitor whose page may be loading again.
+    pub fn is_held(&self) -> bool {
+        self.operator.is_some() || self.away.is_some()
+    }
+
+    /// Whether a visitor has the seat, or it is free.
+    pub fn is_open_to(&self, visitor: Option<&Arc<str>>) -> bool {
+        let away = self.away.as_ref().map(|(guest, _)| guest);
+        let holder = self.operator.map_or(away, |operator| self.guest(operator));
+        holder.is_none_or(|holder| visitor.is_some() && holder.visitor.as_ref() == visitor)
+    }
+
+    /// Adds a connection; it becomes the operator if the seat is free or was its own. If the seat is kept for a visitor who
+    /// has just left, it is the next.
+    ///
+    /// # Errors
+    /// [`NoSeat`].
+    pub fn join(&mut self, guest: Guest, now: Instant) -> Result<u64, NoSeat> {
+        if self.is_closed {
+            return Err(NoSeat::Closed);
+        }
+        if self.guests.len() == VIEWERS {
+            return Err(NoSeat::Full);
+        }
+        self.settle(now);
         self.next += 1;
-        if self.operator.is_none() {
-            self.seat(Some(self.next), now);
+        let own = self.next;
+        let is_again = self.operator.and_then(|operator| self.guest(operator)).is_some_and(|old| old.key == guest.key);
+        let is_kept = self.away.as_ref().is_some_and(|(away, _)| !away.is(&guest));
+        self.guests.push((own, guest));
+        if is_kept {
+            self.ask(own, now);
+        } else if self.operator.is_none() || is_again {
+            // The lease goes on: a pending request keeps its time, and the next one waits as long as before.
+            let (asked, kept) = (self.asked, self.kept);
+            self.seat(Some(own), now);
+            (self.asked, self.kept) = (asked, kept);
         }
-        Some(self.next)
+        Ok(own)
     }
 
-    /// Removes a connection.
+    /// Removes a connection. A visitor's seat is kept for a moment.
     pub fn leave(&mut self, connection: u64, now: Instant) {
-        self.viewers -= 1;
-        self.release(connection, now);
+        let guest = self.guest(connection).cloned();
+        self.guests.retain(|(own, _)| *own != connection);
+        match guest.filter(|guest| guest.visitor.is_some() && self.operator == Some(connection)) {
+            Some(guest) => {
+                (self.operator, self.free) = (None, Some(now));
+                self.away = Some((guest, now));
+            }
+            None => self.release(connection, now),
+        }
     }
 
-    /// A connection releases control or withdraws its request; a pending request then takes over.
+    /// A connection releases control or withdraws its request; the next request then takes over.
     pub fn release(&mut self, connection: u64, now: Instant) {
-        if self.asking == Some(connection) {
-            self.asking = None;
+        if self.asking.front() == Some(&connection) {
+            self.asked = now;
         }
+        self.asking.retain(|asks| *asks != connection);
         if self.operator == Some(connection) {
-            let next = self.asking.take();
-            self.seat(next, now);
+            self.pass_on(now);
         }
     }
 
@@ -82,36 +190,39 @@ impl Seats {
     /// # Errors
     /// The holder has just kept it.
     pub fn take(&mut self, connection: u64, now: Instant) -> Result<(), KeptFor> {
-        match self.operator {
-            Some(operator) if operator == connection => {}
-            Some(_) if self.asking == Some(connection) => {}
-            Some(_) => {
-                let since = self.kept.map(|kept| now.saturating_duration_since(kept));
-                if let Some(left) = since.and_then(|since| KEEP_FOR.checked_sub(since)) {
-                    return Err(KeptFor(left));
-                }
-                // A new request keeps the start of the wait. Otherwise two browsers that request by turns would wait
-                // forever.
-                if self.asking.replace(connection).is_none() {
-                    self.asked = now;
-                }
-            }
-            None => self.seat(Some(connection), now),
+        self.settle(now);
+        let away = self.away.as_ref().map(|(away, _)| away);
+        let is_own = self.guest(connection).zip(away).is_none_or(|(guest, away)| guest.is(away));
+        if self.operator == Some(connection) || self.asking.contains(&connection) {
+            return Ok(());
         }
+        if self.operator.is_none() && is_own {
+            self.seat(Some(connection), now);
+            return Ok(());
+        }
+        let since = self.kept.map(|kept| now.saturating_duration_since(kept));
+        if let Some(left) = since.and_then(|since| KEEP_FOR.checked_sub(since)) {
+            return Err(KeptFor(left));
+        }
+        self.ask(connection, now);
         Ok(())
     }
 
-    /// The operator keeps control, which ends a request.
+    /// The operator keeps control, which ends all requests.
     pub fn keep(&mut self, now: Instant) {
-        if self.asking.take().is_some() {
+        if !self.asking.is_empty() {
+            self.asking.clear();
             self.kept = Some(now);
         }
     }
 
-    /// Time until the operator loses the seat if it does nothing; `None` without a request.
+    /// Time until control passes on if the operator does nothing; `None` without a request.
     pub fn answers_within(&self, now: Instant) -> Option<Duration> {
-        let waits = now.saturating_duration_since(self.asked.max(self.commanded));
-        self.asking.map(|_| ANSWER_WITHIN.saturating_sub(waits))
+        let until = match &self.away {
+            Some((_, since)) => *since + RETURN_WITHIN,
+            None => self.asked.max(self.commanded) + ANSWER_WITHIN,
+        };
+        (!self.asking.is_empty()).then(|| until.saturating_duration_since(now))
     }
 
     /// Notes a command of the operator.
@@ -119,101 +230,27 @@ impl Seats {
         self.commanded = now;
     }
 
-    /// Gives the operator's seat to the requesting client if the operator has not reacted to the request.
-    pub fn take_if_unanswered(&mut self, connection: u64, now: Instant) {
-        if self.asking == Some(connection) && self.answers_within(now) == Some(Duration::ZERO) {
-            self.asking = None;
-            self.seat(Some(connection), now);
+    /// Passes the seat on if its holder has not answered the first request, or has not come back.
+    pub fn settle(&mut self, now: Instant) {
+        let is_gone =
+            self.away.as_ref().is_some_and(|(_, since)| now.saturating_duration_since(*since) >= RETURN_WITHIN);
+        if is_gone {
+            let free = self.free;
+            self.pass_on(now);
+            self.free = self.operator.map_or(free, |_| None);
+        } else if self.answers_within(now) == Some(Duration::ZERO) {
+            self.pass_on(now);
         }
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_first_browser_operates_and_a_request_is_next() {
-        let now = Instant::now();
-        let mut seats = Seats::new(now);
-        let [one, two, three] = [(); 3].map(|()| seats.join(now).unwrap());
-        assert_eq!((seats.operator, seats.epoch), (Some(one), 1));
-        seats.take(two, now).unwrap();
-        seats.take(three, now).unwrap();
-        assert_eq!((seats.operator, seats.asking), (Some(one), Some(three)));
-        seats.leave(one, now);
-        assert_eq!((seats.operator, seats.asking, seats.epoch), (Some(three), None, 2));
-        seats.release(three, now);
-        assert_eq!((seats.operator, seats.epoch), (None, 3));
-        seats.take(two, now).unwrap();
-        assert_eq!((seats.operator, seats.epoch, seats.viewers), (Some(two), 4, 2));
-        seats.take(two, now).unwrap();
-        assert_eq!(seats.epoch, 4, "the browser has the seat already");
+    /// Time without an operator.
+    pub fn unsteered_for(&self, now: Instant) -> Duration {
+        self.free.map_or(Duration::ZERO, |since| now.saturating_duration_since(since))
     }
 
-    #[test]
-    fn only_an_idle_operator_loses_the_seat() {
-        let start = Instant::now();
-        let later = |seconds| start + Duration::from_secs(seconds);
-        let mut seats = Seats::new(start);
-        let [one, two] = [(); 2].map(|()| seats.join(start).unwrap());
-        seats.take_if_unanswered(two, later(1000));
-        assert_eq!(seats.operator, Some(one), "no other browser requested the seat");
-        seats.take(two, later(1000)).unwrap();
-        seats.command(later(1020));
-        seats.take_if_unanswered(two, later(1049));
-        seats.take(two, later(1049)).unwrap();
-        seats.take_if_unanswered(one, later(2000));
-        assert_eq!(seats.operator, Some(one));
-        seats.take_if_unanswered(two, later(1050));
-        assert_eq!((seats.operator, seats.asking), (Some(two), None));
-    }
-
-    #[test]
-    fn alternating_requests_do_not_keep_an_absent_operator() {
-        let start = Instant::now();
-        let later = |seconds| start + Duration::from_secs(seconds);
-        let mut seats = Seats::new(start);
-        let [_, two, three] = [(); 3].map(|()| seats.join(start).unwrap());
-        seats.take(two, later(100)).unwrap();
-        seats.take(three, later(120)).unwrap();
-        seats.take_if_unanswered(three, later(129));
-        assert_ne!(seats.operator, Some(three));
-        seats.take_if_unanswered(three, later(130));
-        assert_eq!(seats.operator, Some(three));
-    }
-
-    #[test]
-    fn an_operator_who_keeps_control_is_not_asked_for_a_minute() {
-        let start = Instant::now();
-        let later = |seconds| start + Duration::from_secs(seconds);
-        let mut seats = Seats::new(start);
-        let [one, two] = [(); 2].map(|()| seats.join(start).unwrap());
-        seats.keep(start);
-        seats.take(two, later(100)).unwrap();
-        assert_eq!(seats.answers_within(later(110)), Some(Duration::from_secs(20)));
-        seats.keep(later(110));
-        assert_eq!((seats.operator, seats.asking, seats.answers_within(later(111))), (Some(one), None, None));
-        assert_eq!(seats.take(two, later(150)), Err(KeptFor(Duration::from_secs(20))));
-        seats.take_if_unanswered(two, later(169));
-        assert_eq!(seats.operator, Some(one));
-        seats.take(two, later(171)).unwrap();
-        assert_eq!(seats.asking, Some(two));
-        // It belongs to the lease.
-        seats.keep(later(172));
-        seats.release(one, later(173));
-        seats.take(one, later(174)).unwrap();
-        seats.take(two, later(174)).unwrap();
-        assert_eq!((seats.operator, seats.asking), (Some(one), Some(two)));
-    }
-
-    #[test]
-    fn the_number_of_browsers_is_limited() {
-        let now = Instant::now();
-        let mut seats = Seats::new(now);
-        let last = (0..VIEWERS).map(|_| seats.join(now).unwrap()).last().unwrap();
-        assert_eq!(seats.join(now), None);
-        seats.leave(last, now);
-        assert!(seats.join(now).is_some_and(|next| next > last), "no number is given twice");
+    /// Lets no connection join any more, if there has been no operator for this long. Returns whether that is so.
+    pub fn close_if_unsteered(&mut self, least: Duration, now: Instant) -> bool {
+        self.is_closed |= self.operator.is_none() && self.unsteered_for(now) >= least;
+        self.is_closed
     }
 }

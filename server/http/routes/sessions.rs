@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::State;
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -16,6 +16,7 @@ use crate::http::path::{Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::http::sessions::MAIN;
+use crate::http::visitors::Visitor;
 use crate::protocol::StateMessage;
 use crate::session::{EndFact, View};
 use ferry_core::facts::Told;
@@ -106,6 +107,20 @@ pub async fn create_session(
     let location = format!("/api/sessions/{}", hub.id);
     let summary = SessionSummary::of(&hub, &hub.session.watch().borrow());
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(summary)).into_response())
+}
+
+/// Opens a session of the visitor's own, which ends two minutes after its last operator has left. What was done in it is
+/// saved: the session goes on when it is opened again. The cookie remembers it.
+#[utoipa::path(post, path = "/api/own-sessions", tag = "sessions",
+    responses((status = 201, body = SessionSummary, headers(("Location" = String, description = "The path of its page."))), TooMany))]
+pub async fn open_own(State(server): State<Arc<Server>>, headers: HeaderMap) -> Result<Response, Problem> {
+    let visitor = server.visitors.meet(&headers).map_err(Problem::internal)?;
+    let hub = server.sessions.open_own(visitor.id.clone()).await?;
+    let location = format!("{}/s/{}", server.base, hub.id);
+    let summary = SessionSummary::of(&hub, &hub.session.watch().borrow());
+    let mut response = (StatusCode::CREATED, [(header::LOCATION, location)], Json(summary)).into_response();
+    server.remember(&Visitor { own: Some(hub.id.clone()), ..visitor }, &headers, &mut response);
+    Ok(response)
 }
 
 /// Summary of a session.

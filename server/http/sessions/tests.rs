@@ -12,7 +12,7 @@ fn sessions(folder: &tempfile::TempDir, settings: SessionSettings) -> Arc<Sessio
 }
 
 fn settings(most: usize, park_after: Duration) -> SessionSettings {
-    SessionSettings { most, park_after, opening: Scenario::idle("posts", 1) }
+    SessionSettings { most, park_after, end_after: Duration::from_secs(120), opening: Scenario::idle("posts", 1) }
 }
 
 #[tokio::test(flavor = "multi_thread")]

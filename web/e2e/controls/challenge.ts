@@ -74,7 +74,7 @@ export const CHALLENGE: Section = {
     },
     'link All boards': { see: tabs, ready: list, after: closeOtherTabs },
     'link Link': { elsewhere: PLAYED },
-    'link Play in a session of your own': { elsewhere: VIEWER },
+    'button Play in a session of your own': { elsewhere: VIEWER },
     'button Start': { see: (lab) => lab.state.running, ready: begin },
     'link Board': { see: tabs, ready: beginOnce, after: closeOtherTabs },
     'button From the start': { see: trial, ready: beginOnce },

@@ -37,6 +37,7 @@ describe('announcements', () => {
       operator_present: true,
       asked: false,
       asks: false,
+      ahead: 0,
       answer_within_s: null,
       adapter: '',
       opened: 'noon',

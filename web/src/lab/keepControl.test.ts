@@ -10,66 +10,40 @@ function storage() {
   };
 }
 
-const SEAT = { seat: 'a1' };
-const OPERATOR = { ...SEAT, role: 'operator', operator_present: true } as const;
-const WATCHING = { ...SEAT, role: 'viewer', operator_present: true } as const;
-const FREE = { ...SEAT, role: 'viewer', operator_present: false } as const;
+const OPERATOR = { seat: 'a1', role: 'operator' } as const;
+const WATCHING = { seat: 'a1', role: 'viewer' } as const;
 
-it('takes control again when the old connection closes last', () => {
-  const tab = storage();
-  createKeeper('main', tab, vi.fn()).hello(OPERATOR);
-  const take = vi.fn();
-  const keeper = createKeeper('main', tab, take);
+/** Another load of the page. */
+function again(session: string, tab = storage()) {
+  const keeper = createKeeper(session, tab);
   keeper.opened();
-  keeper.hello(WATCHING);
-  expect(take).not.toHaveBeenCalled();
-  keeper.hello(FREE);
-  keeper.hello(FREE);
-  expect(take).toHaveBeenCalledOnce();
-  keeper.hello(OPERATOR);
-  expect(keeper.isReturning()).toBe(true);
-  // Released.
-  keeper.hello(FREE);
-  keeper.hello(FREE);
-  expect(keeper.isReturning()).toBe(false);
-  expect(take).toHaveBeenCalledOnce();
-});
+  return keeper;
+}
 
-it('does not take control that was released, or of another session', () => {
-  const tab = storage();
-  const first = createKeeper('main', tab, vi.fn());
-  first.hello(OPERATOR);
-  const other = vi.fn();
-  const keeper = createKeeper('anna', tab, other);
-  keeper.opened();
-  keeper.hello(FREE);
-  expect(other).not.toHaveBeenCalled();
-  first.hello(FREE);
-  const take = vi.fn();
-  const again = createKeeper('main', tab, take);
-  again.opened();
-  again.hello(FREE);
-  expect(take).not.toHaveBeenCalled();
-  expect(again.isReturning()).toBe(false);
-});
-
-it('takes no control that becomes free later', () => {
-  const tab = storage();
-  createKeeper('main', tab, vi.fn()).hello(OPERATOR);
-  const take = vi.fn();
+it('may return for ten seconds after its page was loaded again', () => {
   vi.useFakeTimers({ now: 0 });
-  const keeper = createKeeper('main', tab, take);
-  keeper.opened();
+  const tab = storage();
+  createKeeper('main', tab).hello(OPERATOR);
+  expect(again('anna', tab).isReturning()).toBe(false);
+  const keeper = again('main', tab);
   keeper.hello(WATCHING);
+  expect(keeper.isReturning()).toBe(true);
   vi.setSystemTime(10_001);
-  keeper.hello(FREE);
-  expect(take).not.toHaveBeenCalled();
+  expect(keeper.isReturning()).toBe(false);
   vi.useRealTimers();
+});
+
+it('does not return after it has released control', () => {
+  const tab = storage();
+  const keeper = again('main', tab);
+  keeper.hello(OPERATOR);
+  keeper.hello(WATCHING);
+  expect([keeper.isReturning(), again('main', tab).isReturning()]).toEqual([false, false]);
 });
 
 it('keeps the key of its seat for the next connection', () => {
   const tab = storage();
-  expect(createKeeper('main', tab, vi.fn()).seat()).toBeUndefined();
-  createKeeper('main', tab, vi.fn()).hello(WATCHING);
-  expect(createKeeper('main', tab, vi.fn()).seat()).toBe('a1');
+  expect(again('main', tab).seat()).toBeUndefined();
+  createKeeper('main', tab).hello(WATCHING);
+  expect(again('main', tab).seat()).toBe('a1');
 });

@@ -72,11 +72,7 @@ export function createLab(page: Window, knownLayers: readonly KnownLayer[]): Lab
 
   const { location } = page;
   const name = sessionOf(location);
-  const keeper = createKeeper(
-    name,
-    tabStorage(),
-    () => void send('session', { type: 'take_control' }),
-  );
+  const keeper = createKeeper(name, tabStorage());
   const socket = connect(
     {
       address: () => liveAddress(location, name, keeper.seat()),

@@ -34,6 +34,7 @@ describe('messages', () => {
       operator_present: true,
       asked: false,
       asks: false,
+      ahead: 0,
       answer_within_s: null,
       adapter: '',
       opened: 'noon',

@@ -38,6 +38,7 @@ const HELLO: Hello = {
   operator_present: true,
   asked: false,
   asks: false,
+  ahead: 0,
   answer_within_s: null,
   adapter: '',
   opened: '',

@@ -3,7 +3,7 @@
 import type { JSX } from 'solid-js';
 import { playQuery } from '../../lab/challenges';
 import { linkedChallenge } from '../../lab/pageChallenge';
-import { ownAddress } from '../../lab/ownSession';
+import { OwnSessionButton } from '../../lab/OwnSessionButton';
 
 export function OwnSession(props: { challenge?: string }): JSX.Element {
   /** The challenge that is played here, or that of this page's address. */
@@ -14,9 +14,9 @@ export function OwnSession(props: { challenge?: string }): JSX.Element {
   return (
     <p class="challenge-note">
       Another browser operates this session, and you watch.
-      <a class="button" href={ownAddress(query())}>
+      <OwnSessionButton class="small" rest={query()}>
         Play in a session of your own
-      </a>
+      </OwnSessionButton>
     </p>
   );
 }

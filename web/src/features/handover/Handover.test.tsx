@@ -49,6 +49,8 @@ it('tells who asked how the request stands and ends', async () => {
   const { server, said } = await open();
   server.hello({ role: 'viewer' });
   await page.getByRole('button', { name: 'Take control' }).click();
+  server.hello({ role: 'viewer', asks: true, ahead: 2, answer_within_s: 10 });
+  await expect.element(page.getByText('2 requests before yours.')).toBeVisible();
   server.hello({ role: 'viewer', asks: true, answer_within_s: 30 });
   await expect.element(page.getByText(/It is yours in 30 s/)).toBeVisible();
   server.hello({ role: 'viewer' });

@@ -19,12 +19,7 @@ export function Handover(props: { lab: Session & Notices }): JSX.Element {
       if (before?.asked && last_s <= OVER_S)
         lab.notify('session', 'Another browser has control now: nothing was done here for 30 s.');
       else if (before?.asks && !now.asks && now.operator_present)
-        lab.notify(
-          'session',
-          now.answer_within_s === null
-            ? 'Your request for control is over.'
-            : 'Another browser asks for control after you.',
-        );
+        lab.notify('session', 'Your request for control is over.');
     }),
   );
   return (

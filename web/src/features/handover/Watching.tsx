@@ -2,8 +2,9 @@
 
 import { Eye } from 'lucide';
 import { Show, type JSX } from 'solid-js';
-import { ownAddress } from '../../lab/ownSession';
+import { OwnSessionButton } from '../../lab/OwnSessionButton';
 import type { Session } from '../../lab/slices';
+import { counted } from '../../ui/format';
 import { Icon } from '../../ui/Icon';
 import { createCountdown } from './countdown';
 import './handover.css';
@@ -11,6 +12,7 @@ import './handover.css';
 export function Watching(props: { lab: Session; children: JSX.Element }): JSX.Element {
   const { lab } = props;
   const left_s = createCountdown(lab);
+  const ahead = (): number => lab.hello()?.ahead ?? 0;
   return (
     <div class="transport watching">
       <p>
@@ -25,13 +27,15 @@ export function Watching(props: { lab: Session; children: JSX.Element }): JSX.El
           }
         >
           <strong>You asked for control.</strong>
-          <span class="number">It is yours in {left_s()} s, unless the operator acts.</span>
+          <span class="number">
+            {ahead() > 0
+              ? `${counted(ahead(), 'request')} before yours.`
+              : `It is yours in ${left_s()} s, unless the operator acts.`}
+          </span>
         </Show>
       </p>
       <div class="dock-tools">{props.children}</div>
-      <a class="button primary" href={ownAddress()}>
-        Open your own
-      </a>
+      <OwnSessionButton class="primary">Open your own</OwnSessionButton>
       <Show
         when={lab.hello()?.asks}
         fallback={

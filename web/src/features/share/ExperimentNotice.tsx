@@ -2,7 +2,7 @@
 
 import { Match, Switch, type JSX } from 'solid-js';
 import { experimentWords } from '../../lab/experimentLink';
-import { ownAddress } from '../../lab/ownSession';
+import { OwnSessionButton } from '../../lab/OwnSessionButton';
 import type { PageExperiment } from '../../lab/pageExperiment';
 import type { Session } from '../../lab/slices';
 import { CloseButton } from '../../ui/CloseButton';
@@ -27,9 +27,9 @@ export function ExperimentNotice(props: { lab: Session; links: PageExperiment })
           {(experiment) => (
             <p>
               <span>This link asks for {experimentWords(experiment())}.</span>
-              <a class="button small primary" href={ownAddress(links.hash())}>
+              <OwnSessionButton class="small primary" rest={links.hash()}>
                 Open it in your own session
-              </a>
+              </OwnSessionButton>
               <button
                 type="button"
                 class="small"

@@ -87,7 +87,7 @@ role: Role,
  */
 epoch: number, 
 /**
- * Whether the session has an operator.
+ * Whether the session has an operator, or one whose page may be loading again.
  */
 operator_present: boolean, 
 /**
@@ -98,6 +98,10 @@ asked: boolean,
  * Whether this browser requests control.
  */
 asks: boolean, 
+/**
+ * Requests of other browsers that are answered before that of this one.
+ */
+ahead: number, 
 /**
  * During a request: seconds until the operator loses control if it does nothing. Each of its commands begins them again.
  */

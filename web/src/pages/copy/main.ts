@@ -1,9 +1,18 @@
 // The page of a shared experiment. A link from another site may not open a session, so the user presses a button here.
 
-import { ownAddress } from '../../lab/ownSession';
+import { openOwn } from '../../lab/ownSession';
+import { reasonText } from '../../net/problem';
 import { theme } from '../../ui/theme';
 import { part } from '../part';
 
 theme();
 const { search, hash } = window.location;
-part('a', '.primary').href = ownAddress(search + hash);
+const button = part('button');
+const refusal = part('p', '[role=alert]');
+button.onclick = () => {
+  button.disabled = true;
+  openOwn(search + hash).catch((reason: unknown) => {
+    refusal.textContent = reasonText(reason);
+    button.disabled = false;
+  });
+};
