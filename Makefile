@@ -114,7 +114,7 @@ test-long-rust:
 	$(LIBRARY_TESTS) --ignored
 	$(MAIN_TESTS) --ignored
 	FERRY_COMMANDS=600000 $(LIBRARY_TESTS) command_tests
-	FERRY_SESSIONS=100 FERRY_KILLS=20 FERRY_EXAMPLES=25 $(MAIN_TESTS) contract crashes whatever_an_operator_does
+	FERRY_SESSIONS=100 FERRY_KILLS=20 FERRY_EXAMPLES=25 FERRY_SEQUENCES=1000 $(MAIN_TESTS) contract crashes whatever_an_operator_does whatever_visitors_do
 test-long-browser: system-browsers
 	cargo build --release --quiet
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e:long

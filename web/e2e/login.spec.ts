@@ -78,9 +78,13 @@ test('asks for the token, and sends it in the request body only', async ({ conte
   await page.getByRole('button', { name: 'More', exact: true }).click();
   await expect(page.getByTestId('session-name')).toHaveText('anna');
   const cookies = await context.cookies();
-  expect(cookies.map(({ httpOnly, sameSite }) => ({ httpOnly, sameSite }))).toEqual([
-    { httpOnly: true, sameSite: 'Strict' },
-  ]);
+  const [login, ...others] = cookies.map(({ name, httpOnly, sameSite }) => ({
+    name,
+    httpOnly,
+    sameSite,
+  }));
+  expect(login).toEqual({ name: 'ferry', httpOnly: true, sameSite: 'Strict' });
+  expect(others).toEqual([{ name: 'ferry-visitor', httpOnly: true, sameSite: 'Lax' }]);
   expect(JSON.stringify(cookies), 'the cookie is the token').not.toContain(token);
   expect(await page.evaluate(() => document.cookie), 'a script can read the cookie').toBe('');
 

@@ -1,6 +1,6 @@
 // Operator and viewer at one session: control passes between them, and what the viewer sees.
 
-import { type Lab, expect, test } from './fixtures';
+import { Lab, expect, test } from './fixtures';
 import { distance } from './support/table';
 import { until } from './support/wait';
 
@@ -70,6 +70,57 @@ test('a viewer opens a session of its own with one press', async ({ lab, openLab
   await until('its own session', () => viewer.hello.session !== lab.hello.session);
   await lab.isRole('operator');
   await fetch(`${server.url}/api/sessions/${viewer.hello.session}`, { method: 'DELETE' });
+});
+
+test('a first visitor acts after one press though another steers', async ({
+  lab,
+  session,
+  browser,
+  server,
+}) => {
+  await lab.isRole('operator');
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  const visitor = new Lab(page);
+  await page.goto(session.url);
+  await expect(page.getByText('Another browser steers this one')).toBeVisible();
+  await visitor.button('Pull it away').click();
+  await visitor.live();
+  await visitor.isRole('operator');
+  await until('its own session that runs', () => visitor.state.running);
+  expect(visitor.hello.session).not.toBe(lab.hello.session);
+  await lab.isRole('operator');
+  await context.close();
+  await fetch(`${server.url}/api/sessions/${visitor.hello.session}`, { method: 'DELETE' });
+});
+
+test('says beside the button that the server is full', async ({ lab, openLab, server, watch }) => {
+  watch.allow(/Failed to load resource/);
+  await lab.isRole('operator');
+  const made: string[] = [];
+  for (;;) {
+    const answer = await fetch(`${server.url}/api/sessions`, { method: 'POST' });
+    if (answer.status !== 201) break;
+    made.push(((await answer.json()) as { id: string }).id);
+  }
+  const viewer = await openLab();
+  await viewer.isRole('viewer');
+  await viewer.button('Open your own').click();
+  await expect(viewer.page.getByRole('alert').getByText(/the server is full/i)).toBeVisible();
+  await expect(viewer.button('Open your own')).toBeEnabled();
+  for (const id of made) await fetch(`${server.url}/api/sessions/${id}`, { method: 'DELETE' });
+});
+
+test('a page that is loaded again keeps control though another asks', async ({ lab, openLab }) => {
+  const viewer = await openLab();
+  await viewer.isRole('viewer');
+  await viewer.button('Take control').click();
+  await lab.button('Give control').waitFor();
+  await lab.page.reload();
+  await lab.live();
+  await lab.isRole('operator');
+  await lab.button('Keep').click();
+  await viewer.isRole('viewer');
 });
 
 test('releases the bead when the operator closes the browser', async ({ lab, openLab }) => {

@@ -1,20 +1,29 @@
-// The first visit: the scene, one sentence, and three ways to begin.
+// The first visit: the scene, one sentence, and three ways to begin. While another browser steers, each of them leads to a
+// session of the visitor's own, and begins there.
 
-import { Show, createEffect, type JSX } from 'solid-js';
+import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { ArrowRight, BookOpen, HandGrab, type IconNode, Trophy } from 'lucide';
-import type { PanelName } from '../lab/panels';
+import { openOwn } from '../lab/ownSession';
+
 import type { Lab } from '../lab/slices';
 import type { Interaction } from '../plan/interaction';
 import type { LiveLayer } from '../plan/layer';
 import { firstView } from '../scene/graphics';
 import { MapView } from '../scene/MapView';
+import { reasonText } from '../net/problem';
 import { Icon } from '../ui/Icon';
+import { tabStorage } from '../ui/storage';
 import { Logo } from './Logo';
 import './FirstVisit.css';
 
 const HELP_ID = 'first-visit-help';
 /** The picture stands at the right of the sentence. */
 const SHIFT = 0.15;
+/** Where the way is kept that was chosen in another session. */
+const WAY = 'ferry.way';
+/** Each opens the panel of its name. */
+const WAYS = ['now', 'play', 'learn'] as const;
+type Way = (typeof WAYS)[number];
 
 export function FirstVisit(props: {
   lab: Lab;
@@ -33,14 +42,36 @@ export function FirstVisit(props: {
     if (interaction.act().kind === 'held' && lab.canOperate() && !lab.state()?.running)
       void lab.send('workspace', { type: 'run' });
   });
-  const begin = (panel: PanelName): void => {
+  const isWatching = (): boolean => lab.hello()?.role === 'viewer';
+  const [refused, setRefused] = createSignal<string>();
+  const begin = (panel: Way): void => {
+    if (isWatching()) {
+      tabStorage().setItem(WAY, panel);
+      openOwn().catch((reason: unknown) => {
+        tabStorage().removeItem(WAY);
+        setRefused(reasonText(reason));
+      });
+      return;
+    }
+    if (panel === 'now' && lab.canOperate()) void lab.send('playback', { type: 'run' });
     lab.showPanel(panel);
     props.onEnd();
   };
-  const Chip = (own: { icon: IconNode; label: string; panel: PanelName }): JSX.Element => (
+  const chosen = WAYS.find((panel) => panel === tabStorage().getItem(WAY));
+  createEffect(() => {
+    if (chosen === undefined || !lab.canOperate()) return;
+    tabStorage().removeItem(WAY);
+    begin(chosen);
+  });
+  const Chip = (own: {
+    class?: string;
+    icon: IconNode;
+    label: string;
+    panel: Way;
+  }): JSX.Element => (
     <button
       type="button"
-      class="chip"
+      class={`chip ${own.class ?? ''}`}
       onClick={() => {
         begin(own.panel);
       }}
@@ -61,7 +92,7 @@ export function FirstVisit(props: {
           shift={SHIFT}
           onPlan={props.onEnd}
         />
-        <Show when={bead()}>
+        <Show when={lab.canOperate() && bead()}>
           {(px) => (
             <span
               class="tag"
@@ -89,19 +120,14 @@ export function FirstVisit(props: {
             A magnet on a robot arm carries this bead through a gut. Try to take it away.
           </p>
           <div class="chips">
-            <button
-              type="button"
-              class="chip primary"
-              onClick={() => {
-                if (lab.canOperate()) void lab.send('playback', { type: 'run' });
-                begin('now');
-              }}
-            >
-              <Icon of={HandGrab} />
-              Pull it away
-            </button>
+            <Chip class="primary" icon={HandGrab} label="Pull it away" panel="now" />
             <Chip icon={Trophy} label="Race it" panel="play" />
             <Chip icon={BookOpen} label="Learn" panel="learn" />
+          </div>
+          <div class="first-note" role="status">
+            <Show when={isWatching()}>
+              {refused() ?? 'Another browser steers this one: you get a session of your own.'}
+            </Show>
           </div>
         </div>
         <p class="safety">Simulation, not safety-rated</p>
