@@ -11,6 +11,7 @@ import type { LiveLayer } from '../plan/layer';
 import { firstView } from '../scene/graphics';
 import { MapView } from '../scene/MapView';
 import { reasonText } from '../net/problem';
+import { capital } from '../ui/format';
 import { Icon } from '../ui/Icon';
 import { tabStorage } from '../ui/storage';
 import { Logo } from './Logo';
@@ -49,7 +50,7 @@ export function FirstVisit(props: {
       tabStorage().setItem(WAY, panel);
       openOwn().catch((reason: unknown) => {
         tabStorage().removeItem(WAY);
-        setRefused(reasonText(reason));
+        setRefused(capital(reasonText(reason)));
       });
       return;
     }

@@ -4,7 +4,7 @@ import { isOver } from '../lab/contest';
 import type { ConnectionState } from '../lab/model';
 import { controllerLabel } from '../lab/parameters';
 import type { AttemptStanding, EndFact, StateMessage } from '../net/protocol.gen';
-import { centimetres, seconds } from '../ui/format';
+import { capital, centimetres, seconds } from '../ui/format';
 import type { Controller } from '../ui/controllers';
 import { endWords, holdWords, phaseWords, troubleWords } from '../words/facts';
 
@@ -49,8 +49,6 @@ function connectionStatus(connection: ConnectionState): Status | undefined {
       return bad('The server has another version: reload the page');
   }
 }
-
-const capital = (words: string): string => words.charAt(0).toUpperCase() + words.slice(1);
 
 const pressWord = (isTouch: boolean): string => (isTouch ? 'Tap' : 'Click');
 const noGoalStatus = ({ isTouch }: Around, controller: Controller): Status =>

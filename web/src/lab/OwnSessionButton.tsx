@@ -2,6 +2,7 @@
 
 import { Show, createSignal, type JSX } from 'solid-js';
 import { reasonText } from '../net/problem';
+import { capital } from '../ui/format';
 import { openOwn } from './ownSession';
 
 export function OwnSessionButton(props: {
@@ -34,7 +35,7 @@ export function OwnSessionButton(props: {
       </button>
       <Show when={refused()}>
         <span class="refusal" role="alert">
-          {refused()}
+          {capital(refused() ?? '')}
         </span>
       </Show>
     </>

@@ -46,6 +46,9 @@ export function speed(factor: number): string {
   return factor < 1 ? `1/${Math.round(1 / factor)}×` : `${factor}×`;
 }
 
+/** With a capital letter, as a sentence begins. */
+export const capital = (words: string): string => words.charAt(0).toUpperCase() + words.slice(1);
+
 /** A number with a noun: `1 cell`, `4 cells`. */
 export function counted(count: number, noun: string): string {
   return `${count} ${noun}${count === 1 ? '' : 's'}`;
