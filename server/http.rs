@@ -120,7 +120,7 @@ impl Settings {
         Self {
             data,
             retention: Retention::default(),
-            sessions: 8,
+            sessions: 32,
             park_after: Duration::from_secs(600),
             end_after: Duration::from_secs(120),
             shows_main: false,

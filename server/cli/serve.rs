@@ -41,7 +41,7 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH", default_value = "/")]
     base_path: http::BasePath,
     /// Largest number of simultaneous sessions
-    #[arg(long, value_name = "COUNT", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "COUNT", default_value_t = 32, value_parser = clap::value_parser!(u16).range(1..=256))]
     sessions: u16,
     /// Pause a session without viewers after this time; it may then be closed if another needs its place
     #[arg(long, value_name = "MINUTES", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
