@@ -3,6 +3,7 @@
 
 mod arms;
 mod cable;
+mod handing_over;
 
 use std::cell::Cell;
 use std::ffi::OsStr;
