@@ -11,8 +11,6 @@ import { fileURLToPath } from 'node:url';
 const BINARY =
   process.env.FERRY_BIN ?? fileURLToPath(new URL('../../../target/release/ferry', import.meta.url));
 const START_MS = 60_000;
-/** Limit of open sessions. A test has one session or two, and ends them. */
-const SESSIONS = 16;
 const KEPT_LINES = 200;
 
 export interface ServerOptions {
@@ -57,7 +55,6 @@ export class Server {
           : ['drive', '--robot', given.drives, '--enable-motion']),
         ...['--bind', `127.0.0.1:${port}`],
         ...['--data', data],
-        ...['--sessions', String(SESSIONS)],
         ...(scenario === null ? [] : ['--scenario', scenario]),
         ...(given.basePath === undefined ? [] : ['--base-path', given.basePath]),
         ...(given.robot === undefined ? [] : ['--robot-server', given.robot]),
