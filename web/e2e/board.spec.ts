@@ -60,8 +60,8 @@ test('shows the easy challenge of today, readable on every screen', async ({ pag
   await page.goto(`${server.url}/board`);
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('Easy challenge of today');
   await expect(page).toHaveTitle(/^Board · easy-\d{4}-\d\d-\d\d – Ferry$/);
-  const address = page.getByRole('link', { name: `${server.url}/?challenge=easy-` });
-  await expect(address).toHaveAttribute('href', /\?challenge=easy-/);
+  const address = page.getByRole('link', { name: `${server.url}/copy/#challenge=easy-` });
+  await expect(address).toHaveAttribute('href', /#challenge=easy-/);
 
   await expect(page.getByRole('columnheader')).toHaveText(
     ['Place', 'Player', 'Class', 'Total', 'Time', 'Wall stops', 'Lost beads', 'When'], // prettier-ignore
@@ -121,7 +121,7 @@ test('offers other challenges and the classes of the board', async ({ page }) =>
   await expect(medium).toHaveAttribute('aria-current', 'page');
   await expect(page.getByRole('heading', { level: 2 })).toHaveText(/^No attempt is on this board/);
   await expect(page.getByRole('listitem')).toHaveText([/address/, /bead/, /your name/]);
-  await expect(page.getByRole('link', { name: '/?challenge=medium-' })).toBeVisible();
+  await expect(page.getByRole('link', { name: '/copy/#challenge=medium-' })).toBeVisible();
   expect(await faultsIn(page, MIN_SIDE_PX.mouse)).toEqual([]);
   await page.goBack();
   await expect(players).toHaveCount(ATTEMPTS.length);

@@ -26,7 +26,7 @@ function captureText(lab: Lab) {
 test('updates the capture range while the friction slider is dragged', async ({ lab }) => {
   const { mouse } = lab.page;
   await lab.panel('Tune');
-  expect(await captureText(lab)).toBe('4 to 95 mm');
+  expect(await captureText(lab)).toBe('0.4 to 9.5 cm');
   const sentence = lab.page.getByTestId('magnet-sentence');
   await expect(sentence).toHaveText(/^Between 0\.4 and 9\.5 cm the pull is stronger/);
 
@@ -38,14 +38,14 @@ test('updates the capture range while the friction slider is dragged', async ({ 
   await mouse.move(box.x + 0.2 * box.width, y);
   await mouse.down();
   await mouse.move(box.x + 0.4 * box.width, y, { steps: 5 });
-  await until('another capture range', async () => (await captureText(lab)) !== '4 to 95 mm');
+  await until('another capture range', async () => (await captureText(lab)) !== '0.4 to 9.5 cm');
   expect(lab.scene.parameters.friction, 'the friction before the slider is released').toBe(0.2);
   await mouse.up();
   await until('the friction', () => lab.scene.parameters.friction > 0.3);
-  expect(await captureText(lab)).not.toBe('4 to 95 mm');
+  expect(await captureText(lab)).not.toBe('0.4 to 9.5 cm');
 
   await lab.restoreDefaults();
-  await until('the defaults', async () => (await captureText(lab)) === '4 to 95 mm');
+  await until('the defaults', async () => (await captureText(lab)) === '0.4 to 9.5 cm');
 });
 
 test('changes parameters of the magnet beside its curves', async ({ lab }) => {

@@ -124,7 +124,7 @@ test('a shared copy opens in a session of its own, after one press', async ({
   await skipFirstVisit(page);
   const other = new Lab(page);
   await page.goto(copy);
-  await page.getByRole('button', { name: 'Open the experiment' }).click();
+  await page.getByRole('button', { name: 'Open it' }).click();
   await other.live();
   await other.isRole('operator');
   await until('the map colon', isColon(other));

@@ -91,6 +91,8 @@ async function stopVideo(lab: Lab) {
 
 export const SHARE: Section = {
   name: 'the experiment link',
+  // A test case needs one.
+  ready: ensureGoal,
   rowReady: open('Share'),
   rows: {
     'textbox /^Link: /': {
@@ -100,9 +102,12 @@ export const SHARE: Section = {
         ),
     },
     'button /^Copy: /': {
-      see: async (lab) => (await lab.page.locator('.share-done').allInnerTexts()).join(),
+      see: async (lab) => (await lab.page.locator('.link-done').allInnerTexts()).join(),
     },
     'button Picture (PNG)': { see: downloads },
+    'link Test case': { see: downloads },
+    'link Recording': { see: downloads },
+    'link Input log': { see: downloads },
     'button Record video': {
       see: (lab) => lab.page.getByRole('timer').count(),
       after: stopVideo,

@@ -4,11 +4,13 @@
 import './Page.css';
 import { Match, Show, Switch, createEffect, createSignal, type JSX } from 'solid-js';
 import { type View, VIEWS } from '../lab/address';
+import { openLinks } from './openLinks';
 import { createLab } from '../lab/lab';
 import { followChallengeLink } from '../lab/pageChallenge';
 import { createPageExperiment } from '../lab/pageExperiment';
 import { createCapture } from '../features/export/capture';
 import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
+import { CaseLink } from '../features/events/CaseLink';
 import { openCase } from '../features/events/cases';
 import { Dock } from './Dock';
 import { FirstVisit } from './FirstVisit';
@@ -26,6 +28,7 @@ import { createLayers } from '../plan/layer';
 import { createChoice } from '../ui/storage';
 import { LiveRegion } from './LiveRegion';
 import { createMapOpener } from '../features/maps/opener';
+import { RecordingLinks } from '../features/recordings/RecordingLinks';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
 import { ShareButton } from '../features/share/ShareButton';
 import { onFileDrop } from '../ui/fileDrop';
@@ -88,7 +91,18 @@ export function Page(): JSX.Element {
         mode={mode()}
         onMode={chooseMode}
         share={
-          <ShareButton session={lab.session} links={links} map={lab.scene()?.map}>
+          <ShareButton
+            session={lab.session}
+            links={links}
+            map={lab.scene()?.map}
+            open={openLinks(lab)}
+            files={
+              <>
+                <CaseLink lab={lab}>Test case</CaseLink>
+                <RecordingLinks session={lab.session} />
+              </>
+            }
+          >
             <CaptureTools capture={capture} />
           </ShareButton>
         }

@@ -10,10 +10,12 @@ export function fixed(value: number, digits: number): string {
 /** A label of an axis: with a decimal only if the value is not whole, so that 2.5 does not become 3. */
 export const axisLabel = (value: number): string => fixed(value, Number.isInteger(value) ? 0 : 1);
 
+/** Distances on the table between magnet, bead and goal, everywhere on the page. */
 export function centimetres(value_m: number, digits = 1): string {
   return `${fixed(value_m * 100, digits)} cm`;
 }
 
+/** Heights of the magnet, sizes of drawings and passages, errors of the tracker. */
 export function millimetres(value_m: number, digits = 0): string {
   return `${fixed(value_m * 1000, digits)} mm`;
 }

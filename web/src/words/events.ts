@@ -2,7 +2,7 @@
 
 import type { Happening, Resumption } from '../net/protocol.gen';
 import { CONTROLLER_LABELS } from '../net/protocol.gen';
-import { fixed, millimetres } from '../ui/format';
+import { centimetres, fixed } from '../ui/format';
 import { holdWords, phaseWords, place, reasonWords } from './facts';
 
 const RESUMED: Readonly<Record<Resumption, string>> = {
@@ -41,7 +41,7 @@ export function eventWords(what: Happening): string {
     case 'reached':
       return 'reached: the tool is within 2 cm of the goal';
     case 'delivered':
-      return `delivered: bead within ${millimetres(what.distance_m)} of the goal`;
+      return `delivered: bead within ${centimetres(what.distance_m)} of the goal`;
     case 'lifted_off':
       return 'lift-off: the bead jumped to the magnet';
     case 'step_refused':

@@ -1,7 +1,7 @@
 // The page `/board`: the board of a challenge, large enough for a projector.
 
 import { Show, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
-import { playQuery } from '../../lab/challenges';
+import { challengeCopy } from '../../lab/copyLink';
 import { loggedOut } from '../../net/access';
 import type { ChallengeReport, Challenges, ChallengeSummary } from '../../net/protocol.gen';
 import { counted, fixed } from '../../ui/format';
@@ -24,7 +24,6 @@ import { createBoard } from './live';
 import { createPoll } from './poll';
 import { shownName } from '../../ui/name';
 import './board.css';
-import { addressOf } from '../../net/base';
 
 const LIST_MS = 15_000;
 
@@ -119,8 +118,6 @@ function Head(props: {
   rules: string;
   news: string;
 }): JSX.Element {
-  const address = (name: string): string =>
-    `${window.location.origin}${addressOf('/')}${playQuery(name)}`;
   return (
     <header class="board-head">
       <h1>{props.title}</h1>
@@ -129,7 +126,7 @@ function Head(props: {
         <Show when={props.name}>
           {(name) => (
             <>
-              Play: <a href={address(name())}>{address(name())}</a>
+              Play: <a href={challengeCopy(name())}>{challengeCopy(name())}</a>
             </>
           )}
         </Show>

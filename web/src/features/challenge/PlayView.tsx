@@ -3,8 +3,9 @@
 import { RotateCcw } from 'lucide';
 import { For, Show, createMemo, type JSX } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
-import { boardPath, ghostName, playQuery } from '../../lab/challenges';
+import { boardPath, ghostName } from '../../lab/challenges';
 import { isAtStake, isOver } from '../../lab/contest';
+import { challengeCopy } from '../../lab/copyLink';
 import { SIGHTS } from '../../lab/sight';
 import type { ByHand, Contested, Session, Trial } from '../../lab/slices';
 import type {
@@ -240,8 +241,8 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
         </CommandButton>
         <a
           class="button ghost small"
-          href={playQuery(props.name)}
-          title="Opens this challenge; send it to others"
+          href={challengeCopy(props.name)}
+          title="Opens this challenge in a session of the player’s own; send it to others"
         >
           Link
         </a>

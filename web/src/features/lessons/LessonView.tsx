@@ -6,6 +6,7 @@ import type { Events, Session, Trial } from '../../lab/slices';
 import { Fact } from '../../ui/Fact';
 import { Icon } from '../../ui/Icon';
 import type { Lesson } from './lesson';
+import { LESSONS } from './lessons';
 import { Named } from './Named';
 import { RunStep } from './RunStep';
 import type { Lessons } from './store';
@@ -86,6 +87,10 @@ function Explain(props: Props): JSX.Element {
       </For>
       <p class="lesson-paper">
         {PAPER}: {lesson.paper}
+      </p>
+      <p class="lesson-counted">
+        <Icon of={CircleCheck} />
+        Lesson done: {store.doneCount()} of {LESSONS.length}.
       </p>
     </>
   );

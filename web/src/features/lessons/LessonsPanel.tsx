@@ -1,23 +1,81 @@
 // The list of lessons, or the open lesson.
 
-import { ChevronRight, CircleCheck } from 'lucide';
-import { For, Show, onMount, untrack, type JSX } from 'solid-js';
+import { Check, Link } from 'lucide';
+import { For, Show, createMemo, createSignal, onMount, untrack, type JSX } from 'solid-js';
+import { lessonCopy } from '../../lab/copyLink';
 import { Icon } from '../../ui/Icon';
+import { LinkRow } from '../../ui/LinkRow';
+import type { Lesson } from './lesson';
 import { LessonView } from './LessonView';
-import { LESSONS } from './lessons';
+import { GROUPS, LESSONS } from './lessons';
 import { lessonsOf, type Lessons, type LessonsLab } from './store';
 import './lessons.css';
 
+/** One lesson: it opens by a press, and its link is for others. */
+function LessonRow(props: {
+  store: Lessons;
+  lesson: Lesson;
+  /** Whether it is the next one to do. */
+  isNext: boolean;
+  isLinked: boolean;
+  onLink: () => void;
+  ref: (row: HTMLButtonElement) => void;
+}): JSX.Element {
+  const { store, lesson } = props;
+  return (
+    <li class="lesson-item" classList={{ next: props.isNext }}>
+      <button ref={props.ref} type="button" class="list-row" onClick={() => store.open(lesson)}>
+        <span class="lesson-number" aria-hidden="true">
+          <Show when={store.isDone(lesson)} fallback={LESSONS.indexOf(lesson) + 1}>
+            <Icon of={Check} />
+          </Show>
+        </span>
+        <span>
+          <strong>
+            {lesson.title}
+            <Show when={store.isDone(lesson)}>
+              <span class="visually-hidden"> (done)</span>
+            </Show>
+            <Show when={props.isNext}>
+              <span class="visually-hidden"> (next)</span>
+            </Show>
+          </strong>
+          <small>
+            {lesson.aim} {lesson.minutes} min
+          </small>
+        </span>
+      </button>
+      <button
+        type="button"
+        class="ghost icon-only"
+        aria-label={`Link to ${lesson.title}`}
+        title="A link for a class"
+        aria-expanded={props.isLinked}
+        onClick={() => props.onLink()}
+      >
+        <Icon of={Link} />
+      </button>
+      <Show when={props.isLinked}>
+        <LinkRow title={`Lesson ${lesson.title}`} address={lessonCopy(lesson.id)}>
+          For a class: it opens this lesson in a session of each reader’s own.
+        </LinkRow>
+      </Show>
+    </li>
+  );
+}
+
 function LessonList(props: { store: Lessons }): JSX.Element {
   const { store } = props;
-  const cards = new Map<string, HTMLButtonElement>();
+  const rows = new Map<string, HTMLButtonElement>();
+  const [linked, setLinked] = createSignal<Lesson>();
   onMount(() => {
     // Focus returns to the lesson that was open.
     const left = untrack(store.left);
-    if (left) cards.get(left.id)?.focus();
+    if (left) rows.get(left.id)?.focus();
   });
-  const done = (): number => store.progress().done.length;
-  const isFresh = (): boolean => done() === 0 && Object.keys(store.progress().choices).length === 0;
+  const isFresh = (): boolean =>
+    store.doneCount() === 0 && Object.keys(store.progress().choices).length === 0;
+  const next = createMemo(() => LESSONS.find((one) => !store.isDone(one)));
   return (
     <>
       <section class="panel-intro">
@@ -25,42 +83,31 @@ function LessonList(props: { store: Lessons }): JSX.Element {
         <p class="hint">
           In each one: predict, run one or two experiments, then read why.{' '}
           <span class="number">
-            {done()} of {LESSONS.length} done.
+            {store.doneCount()} of {LESSONS.length} done.
           </span>
         </p>
       </section>
-      <ol class="list">
-        <For each={LESSONS}>
-          {(lesson) => {
-            const isDone = (): boolean => store.progress().done.includes(lesson.id);
-            return (
-              <li>
-                <button
-                  ref={(card) => cards.set(lesson.id, card)}
-                  type="button"
-                  class="list-row"
-                  onClick={() => store.open(lesson)}
-                >
-                  <span>
-                    <strong>
-                      {lesson.title}
-                      <Show when={isDone()}>
-                        <span class="visually-hidden"> (done)</span>
-                      </Show>
-                    </strong>
-                    <small>
-                      {lesson.aim} {lesson.minutes} min
-                    </small>
-                  </span>
-                  <Show when={isDone()} fallback={<Icon of={ChevronRight} />}>
-                    <Icon of={CircleCheck} class="lesson-done" />
-                  </Show>
-                </button>
-              </li>
-            );
-          }}
-        </For>
-      </ol>
+      <For each={GROUPS}>
+        {({ title, lessons }) => (
+          <section aria-label={title}>
+            <h3>{title}</h3>
+            <ol class="list">
+              <For each={lessons}>
+                {(lesson) => (
+                  <LessonRow
+                    store={store}
+                    lesson={lesson}
+                    isNext={next() === lesson}
+                    isLinked={linked() === lesson}
+                    onLink={() => setLinked(linked() === lesson ? undefined : lesson)}
+                    ref={(row) => rows.set(lesson.id, row)}
+                  />
+                )}
+              </For>
+            </ol>
+          </section>
+        )}
+      </For>
       <button
         type="button"
         class="start-over"

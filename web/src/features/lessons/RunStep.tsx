@@ -112,6 +112,12 @@ function ExperimentStep(props: Props<Run>): JSX.Element {
           The page shows another experiment now. Set this one up again to continue.
         </p>
       </Show>
+      <Show when={store.isGoalMoved()}>
+        <p class="hint">
+          The goal is at another place now, and only a delivery to the goal of this experiment
+          counts. Set it up again to continue.
+        </p>
+      </Show>
       <ul class="lesson-tasks plain">
         <For each={store.tasks()}>
           {(task) => (

@@ -1,7 +1,8 @@
 // Lessons about the three transports, and how each one treats walls.
 
 import { centimetres, seconds } from '../../ui/format';
-import { DELIVERED, deliveryWords, type ExperimentLesson, isSlower } from './lesson';
+import { DELIVERED, deliveryWords, type ExperimentLesson, isDelivered, isSlower } from './lesson';
+import { deliveriesTo, type Delivery, type Track } from './track';
 
 const FACE = '#v=1&map=posts&controller=attractor&seed=1&start=-0.05,-0.3&goal=0.13,-0.3';
 const THERE = 'seed=1&start=0.19,-0.28&goal=-0.19,-0.48';
@@ -47,7 +48,7 @@ export const ATTRACTOR: ExperimentLesson = {
     },
   ],
   outcome: (literal) => {
-    if (literal.deliveries.length > 0) return 'around';
+    if (isDelivered(literal)) return 'around';
     return literal.lingered_s > STUCK_S ? 'stuck' : 'through';
   },
   facts: (literal, improved) => [
@@ -64,6 +65,16 @@ export const ATTRACTOR: ExperimentLesson = {
     'Section IV-B, equation 4. Section IV-D says that the law is globally stable; this wall shows that it is not.',
 };
 
+/** The start of the run, as the goal of the way back. */
+const BACK_M = [0.19, -0.28] as const;
+
+/** The delivery to the goal, and the plans from there to that to the start. */
+function wayBack(track: Track): { readonly there: Delivery; readonly again: number } | undefined {
+  const [there] = deliveriesTo(track);
+  const back = deliveriesTo(track, BACK_M).find(({ time_s }) => there && time_s > there.time_s);
+  return there && back && { there, again: back.plans - there.plans };
+}
+
 export const ERRT: ExperimentLesson = {
   id: 'errt',
   title: 'What ERRT remembers',
@@ -79,6 +90,7 @@ export const ERRT: ExperimentLesson = {
   runs: [
     {
       link: `#v=1&map=colon&controller=errt&${THERE}`,
+      nextGoal_m: BACK_M,
       speed: 4,
       layers: ['plan', 'obstacles', 'seen'],
       words: [
@@ -87,27 +99,30 @@ export const ERRT: ExperimentLesson = {
       ],
       tasks: [
         { text: 'ERRT has planned again five times', done: (track) => track.plans > 5 },
-        { text: 'Delivered to the goal', done: (track) => track.deliveries.length > 0 },
-        { text: 'Delivered back to the start', done: (track) => track.deliveries.length > 1 },
+        { text: 'Delivered to the goal', done: isDelivered },
+        { text: 'Delivered back to the start', done: (track) => wayBack(track) !== undefined },
       ],
       actions: [
         {
           label: 'Send it back',
-          message: () => ({ type: 'set_goal', x_m: 0.19, y_m: -0.28 }),
+          message: () => ({ type: 'set_goal', x_m: BACK_M[0], y_m: BACK_M[1] }),
         },
       ],
     },
   ],
-  outcome: ({ deliveries: [there, back] }) => {
-    if (!there || !back) return 'same';
-    const again = back.plans - there.plans;
-    if (again === 0) return 'never';
-    return again <= Math.max(1, there.plans / 4) ? 'once' : 'same';
+  outcome: (track) => {
+    const way = wayBack(track);
+    if (!way) return 'same';
+    if (way.again === 0) return 'never';
+    return way.again <= Math.max(1, way.there.plans / 4) ? 'once' : 'same';
   },
-  facts: ({ deliveries: [there, back] }) => [
-    ['plans on the way to the goal', there ? String(there.plans) : '–'],
-    ['plans on the way back', there && back ? String(back.plans - there.plans) : '–'],
-  ],
+  facts: (track) => {
+    const way = wayBack(track);
+    return [
+      ['plans on the way to the goal', way ? String(way.there.plans) : '–'],
+      ['plans on the way back', way ? String(way.again) : '–'],
+    ];
+  },
   why: [
     'ERRT keeps the walls that the camera has shown in an obstacle map, as few rectangles as possible. On the way to the goal, each new fold can block the plan. On the way back all folds are in the map, so the new goal needs one new plan.',
     'ERRT also keeps waypoints of earlier plans. They help the search: most extensions of its tree aim at one of them.',
@@ -150,20 +165,20 @@ export const POLICY: ExperimentLesson = {
       tasks: [
         {
           text: `Delivered, or the tool stays in one place for ${STUCK_S} s`,
-          done: (track) => track.deliveries.length > 0 || track.lingered_s > STUCK_S,
+          done: (track) => isDelivered(track) || track.lingered_s > STUCK_S,
         },
       ],
     },
   ],
   outcome: (trained, moved) => {
-    if (moved.deliveries.length === 0) return 'lost';
+    if (!isDelivered(moved)) return 'lost';
     return isSlower(moved, trained) ? 'longer' : 'same';
   },
   facts: (trained, moved) => [
     ['as trained: delivered', deliveryWords(trained)],
     [
       'camera moved',
-      moved.deliveries.length > 0
+      isDelivered(moved)
         ? `delivered ${deliveryWords(moved)}`
         : `${seconds(moved.lingered_s)} in one place`,
     ],

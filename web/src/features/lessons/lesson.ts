@@ -6,8 +6,9 @@ import type {
   SceneMessage,
   TrainingSettings,
 } from '../../net/protocol.gen';
+import type { Vec2 } from '../../lab/geometry';
 import { seconds } from '../../ui/format';
-import type { Track } from './track';
+import { deliveriesTo, type Track } from './track';
 
 /** Something that the user has to see happen. */
 export interface Task {
@@ -36,6 +37,8 @@ export interface Run {
   /** After the first one, which is to run it. */
   readonly tasks: readonly Task[];
   readonly actions?: readonly Action[];
+  /** The goal that one of the actions places. */
+  readonly nextGoal_m?: Vec2;
 }
 
 /** A measured value with its unit. */
@@ -92,27 +95,30 @@ export const tasksOf = (run: Run): readonly Task[] => [RUNNING, ...run.tasks];
 
 // Tasks and measurements of several lessons.
 
+/** Whether the bead was delivered to the goal with which the run begins. */
+export const isDelivered = (track: Track): boolean => deliveriesTo(track).length > 0;
+
 export const DELIVERED: Task = {
-  text: 'Delivered: bead within 20 mm of the goal',
-  done: (track) => track.deliveries.length > 0,
+  text: 'Delivered: bead within 2 cm of the goal',
+  done: isDelivered,
 };
 
 /** In a run where the bead is lost: a delivery before that does not count. */
 export const DELIVERED_AFTER_FETCH: Task = {
-  text: 'Fetched and then delivered: bead within 20 mm of the goal',
-  done: ({ deliveries, fetchedAt_s = Infinity }) =>
-    deliveries.some(({ time_s }) => time_s > fetchedAt_s),
+  text: 'Fetched and then delivered: bead within 2 cm of the goal',
+  done: (track) =>
+    deliveriesTo(track).some(({ time_s }) => time_s > (track.fetchedAt_s ?? Infinity)),
 };
 
-/** When the first goal was delivered. */
-export const delivery_s = ({ deliveries }: Track): number => deliveries[0]?.time_s ?? Infinity;
+/** When the goal of the run was delivered first. */
+export const delivery_s = (track: Track): number => deliveriesTo(track)[0]?.time_s ?? Infinity;
 
 /** Whether a delivery took much longer than one before. */
 export const isSlower = (now: Track, before: Track): boolean =>
   delivery_s(now) > 1.25 * delivery_s(before);
 
-/** When the first goal was delivered, as text. */
+/** The same as text. */
 export function deliveryWords(track: Track): string {
-  if (track.deliveries.length > 0) return `after ${seconds(delivery_s(track))}`;
+  if (isDelivered(track)) return `after ${seconds(delivery_s(track))}`;
   return track.stopped ? 'never: it stopped after 150 steps' : 'not yet';
 }

@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { sceneOf, stateAt } from '../../lab/testing';
 import type { Examination } from '../../net/protocol.gen';
-import { type ExperimentLesson, isTrainingLesson, tasksOf } from './lesson';
-import { LESSONS } from './lessons';
+import { type ExperimentLesson, isTraining, isTrainingLesson, tasksOf } from './lesson';
+import { GROUPS, LESSONS } from './lessons';
 import { progressFrom } from './progress';
 import { startTrack, type Track } from './track';
 
@@ -14,7 +14,7 @@ const START = startTrack({
 });
 
 function track(change: Partial<Track>): Track {
-  return { ...START, ...change };
+  return { ...START, runGoal_m: GOAL_M, ...change };
 }
 
 function lesson(id: string): ExperimentLesson {
@@ -31,8 +31,23 @@ const examined = (reached: number): Examination => ({
   reached_wilson95: [0, 1],
 });
 
-const delivered = (time_s: number, plans = 0): Partial<Track> => ({
-  deliveries: [{ time_s, plans }],
+const GOAL_M = [0.2, -0.36] as const;
+/** Where *Send it back* places the goal. */
+const BACK_M = [0.19, -0.28] as const;
+
+const deliveryAt = (time_s: number, goal_m: readonly [number, number] = GOAL_M, plans = 0) => ({
+  time_s,
+  goal_m,
+  plans,
+});
+
+const delivered = (time_s: number): Partial<Track> => ({
+  deliveries: [deliveryAt(time_s)],
+});
+
+/** A delivery to the goal after 13 plans, and to the start after so many. */
+const thereAndBack = (plans: number): Partial<Track> => ({
+  deliveries: [deliveryAt(10, GOAL_M, 13), deliveryAt(20, BACK_M, plans)],
 });
 
 describe('every lesson', () => {
@@ -73,6 +88,43 @@ it.each([
   expect(last?.done(track({ ...before, ...delivered(20) }))).toBe(true);
 });
 
+it.each([
+  ['the goal, and again after a push', [GOAL_M, GOAL_M], [true, false]],
+  ['the start, before the goal', [BACK_M], [false, false]],
+  ['the goal and the start', [GOAL_M, BACK_M], [true, true]],
+  ['another place of the map', [[0.1, -0.4]], [false, false]],
+] as const)('of the way there and back, a delivery to %s counts', (_, goals, done) => {
+  const tasks = lesson('errt').runs[0].tasks.slice(1);
+  const deliveries = goals.map((goal_m, index) => deliveryAt(10 * (index + 1), goal_m));
+  expect(tasks.map((task) => task.done(track({ deliveries })))).toEqual(done);
+});
+
+it('groups all lessons, each once, and begins with the magnet', () => {
+  expect(GROUPS.map(({ title }) => title)).toEqual([
+    'The magnet',
+    'Switching',
+    'Carrying',
+    'Training',
+  ]);
+  expect(LESSONS.slice(0, 2).map(({ id }) => id)).toEqual(['magnet', 'lift-off']);
+});
+
+/** Distances on the table are in cm: mm are for heights, speeds, waves and errors of the tracker. */
+it.each(LESSONS.map((one) => [one.title, one] as const))(
+  '%s has one unit for a distance',
+  (_, one) => {
+    const words = [one.question, one.aim, one.paper, ...Object.values(one.choices), ...one.why];
+    const runs = one.runs.flatMap((run) =>
+      isTraining(run) ? run.words : [...run.words, ...run.tasks.map(({ text }) => text)],
+    );
+    for (const text of [...words, ...runs]) {
+      expect(text).not.toMatch(
+        /\d mm (away|of the goal|from the magnet|behind)|(hangs|height of) \d+ cm/,
+      );
+    }
+  },
+);
+
 describe('the outcome follows from the measurements', () => {
   it.each<[string, Partial<Track>[], string]>([
     ['magnet', [{ carryingError_m: 0.002 }], 'below'],
@@ -86,9 +138,9 @@ describe('the outcome follows from the measurements', () => {
     ['chatter', [{ switches: 2, ...delivered(15) }, {}], 'carries'],
     ['attractor', [{ lingered_s: 30 }, delivered(6)], 'stuck'],
     ['attractor', [delivered(6), delivered(6)], 'around'],
-    ['errt', [{ deliveries: [13, 14].map((plans) => ({ time_s: plans, plans })) }], 'once'],
-    ['errt', [{ deliveries: [13, 25].map((plans) => ({ time_s: plans, plans })) }], 'same'],
-    ['errt', [{ deliveries: [13, 13].map((plans) => ({ time_s: plans, plans })) }], 'never'],
+    ['errt', [thereAndBack(14)], 'once'],
+    ['errt', [thereAndBack(25)], 'same'],
+    ['errt', [thereAndBack(13)], 'never'],
     ['policy', [delivered(16), { lingered_s: 30 }], 'lost'],
     ['policy', [delivered(16), delivered(17)], 'same'],
     ['policy', [delivered(16), delivered(30)], 'longer'],

@@ -7,17 +7,16 @@ import { THE_GUT_MOVES } from './movingLessons';
 import { LOSE_THE_BEAD, THRESHOLD, TWO_LAWS } from './switchingLessons';
 import { FAR_GOAL, FINE_TUNING, LEARNING_FAILS } from './trainingLessons';
 
-export const LESSONS: readonly Lesson[] = [
-  MEET_THE_MAGNET,
-  LOSE_THE_BEAD,
-  THRESHOLD,
-  TWO_LAWS,
-  ATTRACTOR,
-  ERRT,
-  POLICY,
-  THE_GUT_MOVES,
-  LEARNING_FAILS,
-  FAR_GOAL,
-  FINE_TUNING,
-  LIFT_OFF,
+interface Group {
+  readonly title: string;
+  readonly lessons: readonly Lesson[];
+}
+
+export const GROUPS: readonly Group[] = [
+  { title: 'The magnet', lessons: [MEET_THE_MAGNET, LIFT_OFF] },
+  { title: 'Switching', lessons: [LOSE_THE_BEAD, THRESHOLD, TWO_LAWS] },
+  { title: 'Carrying', lessons: [ATTRACTOR, ERRT, POLICY, THE_GUT_MOVES] },
+  { title: 'Training', lessons: [LEARNING_FAILS, FAR_GOAL, FINE_TUNING] },
 ];
+
+export const LESSONS: readonly Lesson[] = GROUPS.flatMap(({ lessons }) => lessons);

@@ -14,7 +14,7 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
   title: 'Meet the magnet',
   aim: 'See how a bead follows a magnet that never touches it.',
   minutes: 2,
-  question: `The magnet hangs ${centimetres(FACTS.height_m, 0)} above the table and moves to the right at ${millimetres(FACTS.transport_speed_m_s)}/s. Where is the bead while the magnet moves?`,
+  question: `The magnet hangs ${millimetres(FACTS.height_m)} above the table and moves to the right at ${millimetres(FACTS.transport_speed_m_s)}/s. Where is the bead while the magnet moves?`,
   choices: {
     below: 'Right below the magnet',
     behind: 'A little behind, 1 to 3 cm',
@@ -42,22 +42,22 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
   facts: (track) => [
     [
       'greatest distance behind, without the noise of the tracker',
-      millimetres(track.carryingError_m, 1),
+      centimetres(track.carryingError_m),
     ],
     ['delivered', deliveryWords(track)],
   ],
   why: [
     `Right below the magnet there is no sideways pull. The pull grows with the distance to the side, up to ${fixed(FACTS.strongest_pull, 2)} of the bead’s weight at ${centimetres(FACTS.strongest_at_m)}. Farther out it becomes weaker again.`,
-    `The moving bead stays at the distance where the pull equals friction plus drag: ${millimetres(FACTS.follows_at_m, 1)} at ${millimetres(FACTS.transport_speed_m_s)}/s. When the magnet stops, there is no drag, and the bead slides to ${millimetres(FACTS.rests_at_m)} from the magnet.`,
+    `The moving bead stays at the distance where the pull equals friction plus drag: ${centimetres(FACTS.follows_at_m)} at ${millimetres(FACTS.transport_speed_m_s)}/s. When the magnet stops, there is no drag, and the bead slides to ${centimetres(FACTS.rests_at_m)} from the magnet.`,
     `Even the strongest pull cannot move the bead faster than ${millimetres(FACTS.greatest_speed_m_s)}/s. A faster magnet would leave it behind.`,
   ],
-  paper: 'Section V: the magnets, and the plane 10 cm above the table.',
+  paper: `Section V: the magnets, and the plane ${millimetres(FACTS.height_m)} above the table.`,
 };
 
 export const LIFT_OFF: ExperimentLesson = {
   id: 'lift-off',
   title: 'Lift-off',
-  aim: 'Find out why the magnet has to stay 10 cm above the table.',
+  aim: `Find out why the magnet has to stay ${millimetres(FACTS.height_m)} above the table.`,
   minutes: 3,
   question: `With its lower face ${millimetres(FACTS.height_m)} above the table, the magnet lifts ${fixed(FACTS.lift, 2)} of the bead’s weight. You lower the magnet. When does the bead jump up to it?`,
   choices: {
@@ -122,8 +122,8 @@ export const LIFT_OFF: ExperimentLesson = {
   ],
   why: [
     `The lift grows fast as the magnet comes down: ${fixed(FACTS.lift, 2)} of the weight at ${millimetres(FACTS.height_m)}, 0.90 at ${millimetres(FACTS.nine_tenths_at_m)}, and the whole weight at ${millimetres(FACTS.lift_off_m, 1)}. There the bead rises. The pull grows as it rises, so the bead hits the magnet.`,
-    `A height of ${centimetres(FACTS.height_m, 0)} is a compromise. If the magnet is higher, its sideways pull soon becomes weaker than friction. If it is lower, the bead jumps to it.`,
+    `A height of ${millimetres(FACTS.height_m)} is a compromise. If the magnet is higher, its sideways pull soon becomes weaker than friction. If it is lower, the bead jumps to it.`,
     `On its edge (B), the magnet has a weaker field at the bead. It would lift the bead only at a height of ${millimetres(FACTS.lift_off_on_edge_m)}. But its sideways pull is also much weaker: in the layer *Capture*, only two small areas are left of the ring.`,
   ],
-  paper: `Section V: the arm moves in a plane ${centimetres(FACTS.height_m, 0)} above the table.`,
+  paper: `Section V: the arm moves in a plane ${millimetres(FACTS.height_m)} above the table.`,
 };

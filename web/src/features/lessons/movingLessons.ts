@@ -1,6 +1,6 @@
 // A lesson about walls that move.
 
-import { DELIVERED, deliveryWords, type ExperimentLesson, isSlower } from './lesson';
+import { DELIVERED, deliveryWords, type ExperimentLesson, isDelivered, isSlower } from './lesson';
 
 const COLON = '#v=1&map=colon&controller=rl&seed=1&start=0.19,-0.28&goal=-0.24,-0.27';
 
@@ -49,7 +49,7 @@ export const THE_GUT_MOVES: ExperimentLesson = {
     },
   ],
   outcome: (rigid, moving) => {
-    if (moving.deliveries.length === 0) return 'never';
+    if (!isDelivered(moving)) return 'never';
     return isSlower(moving, rigid) ? 'slower' : 'same';
   },
   facts: (rigid, moving, strong) => [

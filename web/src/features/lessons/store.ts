@@ -2,6 +2,7 @@
 // lesson continues while the user looks at another tab.
 
 import { createEffect, createMemo, createRoot, createSignal, on } from 'solid-js';
+import type { Vec2 } from '../../lab/geometry';
 import { loadLink } from '../../lab/loadTrial';
 import type { Addressed, Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
 import { shareWords } from '../../lab/trainingStage';
@@ -19,7 +20,7 @@ import {
 import { createLessonTrainings } from './lessonTrainings';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, progressFrom } from './progress';
-import { startTrack, observe, type Track } from './track';
+import { isSame, startTrack, observe, type Track } from './track';
 
 const KEY = 'lessons';
 
@@ -67,6 +68,13 @@ function createLessons(lab: LessonsLab) {
     return now !== undefined && now.trial !== lab.scene()?.trial;
   };
   const isFollowed = (): boolean => track() !== undefined && !isElsewhere();
+  /** Whether the user has moved the goal of the experiment: its tasks count no delivery to another one. */
+  const isGoalMoved = (): boolean => {
+    const [now, goal_m] = [track(), lab.state()?.goal_m];
+    if (!isFollowed() || !now?.runGoal_m) return false;
+    const at: Vec2 | null = goal_m ? [goal_m[0], goal_m[1]] : null;
+    return ![now.runGoal_m, experiment()?.nextGoal_m ?? null].some((one) => isSame(one, at));
+  };
   const tasks = createMemo((): readonly Task[] => {
     const now = experiment();
     return now ? tasksOf(now) : [];
@@ -134,6 +142,8 @@ function createLessons(lab: LessonsLab) {
 
   return {
     progress,
+    isDone,
+    doneCount: (): number => progress().done.length,
     lesson,
     /** The lesson that was open before. */
     left,
@@ -148,6 +158,7 @@ function createLessons(lab: LessonsLab) {
     isElsewhere,
     /** Whether the page shows the present experiment, as it was set up. */
     isFollowed,
+    isGoalMoved,
     /** What the present experiment asks for. */
     tasks,
     isTaskDone,

@@ -8,6 +8,7 @@ import {
   delivery_s,
   deliveryWords,
   type ExperimentLesson,
+  isDelivered,
   type Run,
 } from './lesson';
 import type { Track } from './track';
@@ -128,7 +129,7 @@ export const THRESHOLD: ExperimentLesson = {
     ['delivered', deliveryWords(narrow)],
   ],
   why: [
-    `With T = 10 cm no kick counts as a loss. Up to ${millimetres(FACTS.reach_m, 1)} away, the magnet’s pull is still stronger than friction, and it brings the bead back while the arm continues.`,
+    `With T = 10 cm no kick counts as a loss. Up to ${centimetres(FACTS.reach_m)} away, the magnet’s pull is still stronger than friction, and it brings the bead back while the arm continues.`,
     'With T = 3 cm each kick counts as a loss: the arm turns around, fetches the bead, and starts a new leg.',
     'The best T is a little less than the reach of the magnet. The paper calls T = 10 cm arbitrary, but it is close to this value.',
   ],
@@ -178,7 +179,7 @@ export const TWO_LAWS: ExperimentLesson = {
   ],
   outcome: (literal) => {
     if (literal.switches >= MANY_SWITCHES) return 'turns';
-    return literal.deliveries.length > 0 ? 'carries' : 'above';
+    return isDelivered(literal) ? 'carries' : 'above';
   },
   facts: (literal, hysteresis) => [
     ['formula as written', `${literal.switches} switches in ${seconds(literal.time_s)}`],

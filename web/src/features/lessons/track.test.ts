@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type { EventKind, EventMessage, Happening, StateMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
 import { eventAt, phaseOf, stoppedBy } from '../../lab/testingFacts';
-import { startTrack, type Frame, observe, type Track } from './track';
+import { deliveriesTo, startTrack, type Frame, observe, type Track } from './track';
 
 const scene = sceneOf('posts', 3);
 
@@ -88,9 +88,28 @@ describe('a track', () => {
       { ...frame(20, {}, [there, back]), overlay: overlay(14, 19.9) },
     ]);
     expect(track.deliveries).toEqual([
-      { time_s: 10, plans: 13 },
-      { time_s: 20, plans: 14 },
+      { time_s: 10, goal_m: null, plans: 13 },
+      { time_s: 20, goal_m: null, plans: 14 },
     ]);
+  });
+
+  it('knows the goal of each delivery', () => {
+    const placed = (time_s: number, x_m: number): EventMessage =>
+      event(time_s, 'goal', { code: 'goal_placed', x_m, y_m: -0.3 });
+    const run = {
+      ...scene,
+      scenario: { ...scene.scenario, goal_m: [0.1, -0.3] as [number, number] },
+    };
+    const marks = [event(10, 'delivered'), placed(11, 0.2), event(20, 'delivered')];
+    const track = observe(startTrack({ ...frame(0), scene: run }), {
+      ...frame(21, {}, marks),
+      scene: run,
+    });
+    expect(track.deliveries.map(({ goal_m }) => goal_m)).toEqual([
+      [0.1, -0.3],
+      [0.2, -0.3],
+    ]);
+    expect(deliveriesTo(track).map(({ time_s }) => time_s)).toEqual([10]);
   });
 
   it('measures how long the tool stayed in one place during a transport', () => {

@@ -22,6 +22,8 @@ export interface Frame {
 
 export interface Delivery {
   readonly time_s: number;
+  /** The goal of that time; null if its placing is not known. */
+  readonly goal_m: Vec2 | null;
   /** Number of plans that ERRT had made by then. */
   readonly plans: number;
 }
@@ -49,6 +51,16 @@ const NOTHING = {
   liftedAt_m: undefined as number | undefined,
 };
 
+/** A place is the same within the rounding of links. */
+const SAME_M = 0.001;
+
+export const isSame = (one: Vec2 | null, other: Vec2 | null): boolean =>
+  one !== null && other !== null && distance(one, other) < SAME_M;
+
+/** Deliveries to a goal: that of the run, if no other is named. */
+export const deliveriesTo = (track: Track, goal_m = track.runGoal_m): readonly Delivery[] =>
+  track.deliveries.filter((one) => isSame(one.goal_m, goal_m));
+
 /** What the newest frame shows. */
 const present = ({ scene, state }: Frame) => ({
   /** Number of the followed trial. */
@@ -63,7 +75,10 @@ const anchorAt = (now: ReturnType<typeof present>) => ({ at: now.tool_m, time_s:
 
 export function startTrack(frame: Frame) {
   const now = present(frame);
-  return { ...NOTHING, ...now, anchor: anchorAt(now) };
+  const goal = frame.scene.scenario.goal_m;
+  /** The goal with which the run begins. */
+  const runGoal_m: Vec2 | null = goal && [goal[0], goal[1]];
+  return { ...NOTHING, ...now, runGoal_m, anchor: anchorAt(now) };
 }
 
 export type Track = Readonly<ReturnType<typeof startTrack>>;
@@ -82,16 +97,19 @@ function lingering({ anchor, lingered_s }: Track, frame: Frame) {
 }
 
 /**
- * Deliveries from `marks`, each with the number of plans by then. One that the overlay has not reached waits: its event
- * may arrive before the overlay of the same control step.
+ * Deliveries from `marks`, each with its goal and the number of plans by then. One that the overlay has not reached waits:
+ * its event may arrive before the overlay of the same control step.
  */
 function delivered(track: Track, { scene, overlay, marks }: Frame, plans: number) {
   const seen_s = ((overlay?.tick ?? Infinity) + 0.5) * scene.tick_s + CONTROL_PERIOD_S;
-  const times_s = marks
-    .filter(({ kind, sim_time_s }) => kind === 'delivered' && sim_time_s <= seen_s)
-    .map((mark) => mark.sim_time_s);
-  if (times_s.length === track.deliveries.length) return track.deliveries;
-  return times_s.map((time_s, index) => track.deliveries[index] ?? { time_s, plans });
+  let goal_m = track.runGoal_m;
+  const found: Delivery[] = [];
+  for (const { kind, what, sim_time_s: time_s } of marks) {
+    if (what.code === 'goal_placed') goal_m = [what.x_m, what.y_m];
+    else if (kind === 'delivered' && time_s <= seen_s) found.push({ time_s, goal_m, plans });
+  }
+  if (found.length === track.deliveries.length) return track.deliveries;
+  return found.map((one, index) => track.deliveries[index] ?? one);
 }
 
 /** The track after one more frame. Frames of another trial do not change it. */
@@ -108,6 +126,7 @@ export function observe(track: Track, frame: Frame): Track {
   const carried_m = isCarrying ? state.tracking_error_m : 0;
   return {
     ...now,
+    runGoal_m: track.runGoal_m,
     travelled_m: track.travelled_m + distance(track.tool_m, now.tool_m),
     greatestError_m: Math.max(track.greatestError_m, state.tracking_error_m),
     carryingError_m: Math.max(track.carryingError_m, carried_m),

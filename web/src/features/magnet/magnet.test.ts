@@ -76,9 +76,9 @@ describe('the requests', () => {
 describe('the texts', () => {
   it('describe the capture', () => {
     expect(captureWords(null)).toBe('nothing');
-    expect(captureWords([0.0044, 0.0947])).toBe('4 to 95 mm');
-    expect(captureWords([0.0002, 0.261])).toBe('0.2 to 261 mm');
-    expect(captureWords([0, 0.5])).toBe('from 0 mm');
+    expect(captureWords([0.0044, 0.0947])).toBe('0.4 to 9.5 cm');
+    expect(captureWords([0.0002, 0.261])).toBe('0.02 to 26.1 cm');
+    expect(captureWords([0, 0.5])).toBe('from 0.0 cm');
   });
 
   it('describe the weight left', () => {
@@ -94,11 +94,11 @@ describe('the texts', () => {
 
   it('describe a point of a curve', () => {
     expect(pullWords(CURVE, 0.2, 1)).toBe(
-      '50 mm to the side: lift 0.40, pull 0.30, friction holds 0.12',
+      '5.0 cm to the side: lift 0.40, pull 0.30, friction holds 0.12',
     );
-    expect(pullWords(CURVE, 0.2, 0)).toBe('0 mm to the side: lift 1.20, pull 0.00, lifted off');
+    expect(pullWords(CURVE, 0.2, 0)).toBe('0.0 cm to the side: lift 1.20, pull 0.00, lifted off');
     expect(pullWords(CURVE, 0.2, 7)).toBeUndefined();
-    expect(reachWords(REACH, 0)).toBe('At 100 mm: captures 4 to 95 mm, follows 79 mm/s');
+    expect(reachWords(REACH, 0)).toBe('At 100 mm: captures 0.4 to 9.5 cm, follows 79 mm/s');
     expect(reachWords(REACH, 1)).toBe('At 200 mm: captures nothing');
   });
 });

@@ -111,10 +111,10 @@ export function captureWords(capture_m: PullCurve['capture_m']): string {
   if (!capture_m) return 'nothing';
   const [inner_m, outer_m] = capture_m;
   // Do not round to 0: right below the magnet the bead is not pulled.
-  const digits = inner_m > 0 && inner_m < 0.001 ? 1 : 0;
+  const digits = inner_m > 0 && inner_m < 0.001 ? 2 : 1;
   return outer_m >= FARTHEST_CAPTURE_M
-    ? `from ${millimetres(inner_m, digits)}`
-    : `${fixed(inner_m * 1000, digits)} to ${millimetres(outer_m)}`;
+    ? `from ${centimetres(inner_m, digits)}`
+    : `${fixed(100 * inner_m, digits)} to ${centimetres(outer_m)}`;
 }
 
 /** `Between 0.4 and 9.5 cm the pull is stronger than friction: the bead follows.` */
@@ -151,7 +151,7 @@ export function pullWords(curve: PullCurve, friction: number, index: number): st
   if (offset_m === undefined || lift === undefined || lateral === undefined) return undefined;
   const held = heldRatio(curve, friction)[index];
   const holds = typeof held === 'number' ? `friction holds ${fixed(held, 2)}` : 'lifted off';
-  return `${millimetres(offset_m)} to the side: lift ${fixed(lift, 2)}, pull ${fixed(lateral, 2)}, ${holds}`;
+  return `${centimetres(offset_m)} to the side: lift ${fixed(lift, 2)}, pull ${fixed(lateral, 2)}, ${holds}`;
 }
 
 /** Capture and speed at one of the curve's heights. */

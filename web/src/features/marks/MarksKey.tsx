@@ -18,7 +18,7 @@ const MARKS: readonly (readonly [name: string, help: string, icon: () => JSX.Ele
   ['Tracked', 'where the tracker sees the bead', () => <path class="tracked" d="M15 4v8M11 8h8" />],
   [
     'Goal',
-    'within 20 mm, the bead is delivered',
+    'within 2 cm, the bead is delivered',
     () => (
       <g class="goal">
         <circle cx="15" cy="8" r="6.5" />

@@ -27,7 +27,13 @@ async function open() {
       <div style={{ '--top': '300px' }}>
         <ExperimentNotice lab={lab} links={links} />
         <PresetSelect lab={lab} links={links} />
-        <ShareButton session="anna" links={links} map={lab.scene()?.map}>
+        <ShareButton
+          session="anna"
+          links={links}
+          map={lab.scene()?.map}
+          open={[{ title: 'This lesson', address: 'http://ferry/x', words: 'For a class' }]}
+          files="Files"
+        >
           More
         </ShareButton>
         <PlaceNotice lab={lab} place="playback" />
@@ -61,6 +67,7 @@ it('has the experiment in its link, and copies it', async () => {
   await expect
     .element(page.getByLabelText('Link: Watch this'))
     .toHaveValue(`${window.location.origin}/s/anna`);
+  await expect.element(page.getByLabelText('Link: This lesson')).toHaveValue('http://ferry/x');
   await button('Copy: A copy for each').click();
   await expect.element(page.getByText(/^(Copied\.|Selected: )/)).toBeVisible();
 });

@@ -2,8 +2,8 @@
 
 import { createEffect, createSignal, type JSX } from 'solid-js';
 import { Copy } from 'lucide';
-import { Icon } from '../../ui/Icon';
-import './share.css';
+import { Icon } from './Icon';
+import './LinkRow.css';
 
 export function LinkRow(props: {
   title: string;
@@ -28,9 +28,9 @@ export function LinkRow(props: {
     else select();
   };
   return (
-    <section aria-label={props.title}>
+    <section class="link-row" aria-label={props.title}>
       <h3>{props.title}</h3>
-      <div class="share-row">
+      <div class="link-field">
         <input
           ref={field}
           type="text"
@@ -45,7 +45,7 @@ export function LinkRow(props: {
         </button>
       </div>
       <p class="hint">{props.children}</p>
-      <p class="share-done" role="status">
+      <p class="link-done" role="status">
         {copied()}
       </p>
     </section>
