@@ -137,7 +137,7 @@ export function Page(): JSX.Element {
           />
         </Match>
         <Match when={view() === 'draw'}>
-          <DrawView lab={lab} open={(file) => opener.open(file)} />
+          <DrawView lab={lab} open={opener.open} />
         </Match>
         <Match when={view() === 'train'}>
           <TrainView

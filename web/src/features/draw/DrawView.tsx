@@ -13,6 +13,7 @@ import { svgText } from './drawing';
 import { createEditor } from './editor';
 import { farGoal } from './farGoal';
 import { onUndoKey } from './keys';
+import { type Places, placesOf } from './marks';
 import { SidePanel } from './SidePanel';
 import { Surface } from './Surface';
 import { HELP_ID, helpOf } from './tools';
@@ -24,7 +25,7 @@ const editor = createEditor();
 export default function DrawView(props: {
   lab: Addressed & Session & Trial & Notices & Panels;
   /** Adds the drawing to the server's maps and loads it; returns whether it was added. */
-  open: (file: File) => Promise<boolean>;
+  open: (file: File, places: Places) => Promise<boolean>;
 }): JSX.Element {
   const { lab } = props;
   const svg = createMemo(() => svgText(editor.editing().drawing));
@@ -37,9 +38,10 @@ export default function DrawView(props: {
     return at ? `x ${fixed(at[0] / 1000, 3)} y ${fixed(-at[1] / 1000, 3)} m` : '';
   };
   const save = async (file: File): Promise<void> => {
-    if (!(await props.open(file))) return;
+    const { marks = {} } = editor.editing().drawing;
+    if (!(await props.open(file, placesOf(marks)))) return;
     lab.address.show('laboratory');
-    // What the server has read, and a training on it for those who want one.
+    // What the server has read, and which policies deliver on it.
     lab.showPanel('setup');
     const [scene, state] = [lab.scene(), lab.state()];
     if (!scene || !state || state.goal_m) return;

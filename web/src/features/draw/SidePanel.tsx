@@ -14,6 +14,7 @@ import { type Check, verdictOf } from './check';
 import { BLANK, type Drawing, svgText } from './drawing';
 import type { Editor } from './editor';
 import { drawingOf } from './import';
+import { markFaults } from './marks';
 
 export function SidePanel(props: {
   lab: Session & Trial;
@@ -36,7 +37,11 @@ export function SidePanel(props: {
     const found = props.check.found();
     return found && verdictOf(found);
   });
-  const hasRoom = (): boolean => (props.check.found()?.regions ?? 0) > 0;
+  const faults = createMemo(() => {
+    const [found, { marks = {} }] = [props.check.found(), props.editor.editing().drawing];
+    return found ? markFaults(marks, found) : [];
+  });
+  const isUsable = (): boolean => (props.check.found()?.regions ?? 0) > 0 && faults().length === 0;
   const show = async (drawing: Promise<Drawing>): Promise<void> =>
     props.editor.act({ type: 'show', drawing: await drawing });
   const take = (drawing: () => Promise<Drawing>) => attempt(show(drawing()));
@@ -73,6 +78,7 @@ export function SidePanel(props: {
           <For each={props.check.remarks()}>
             {({ text, isWarning }) => <p classList={{ warning: isWarning }}>{text}</p>}
           </For>
+          <For each={faults()}>{(text) => <p class="warning">{text}</p>}</For>
         </div>
       </section>
       <section>
@@ -116,7 +122,7 @@ export function SidePanel(props: {
         <button
           type="button"
           class="primary"
-          disabled={!lab.canOperate() || isBusy() || !hasRoom()}
+          disabled={!lab.canOperate() || isBusy() || !isUsable()}
           title="Adds the drawing to the server's maps and starts a trial on it"
           onClick={() => void props.onSave(fileOf(freeName(plainName(), lab.catalog.maps() ?? [])))}
         >

@@ -10,16 +10,18 @@ import {
   onMount,
   type JSX,
 } from 'solid-js';
-import type { NarrowPlace } from '../../net/protocol.gen';
+import { GOAL_RADIUS_M, type NarrowPlace } from '../../net/protocol.gen';
 import { millimetres } from '../../ui/format';
 import { TESTED_WIDTH_M } from './check';
 import {
   BLANK,
   type Frame,
+  type Mark,
   type Mm,
   movedInside,
   pathText,
   type Shape,
+  snapped,
   withImages,
 } from './drawing';
 import type { Editor } from './editor';
@@ -33,6 +35,7 @@ const GRID_MM = 50;
 const FONT_PX = 12;
 const CORNER_PX = 4;
 const RIM_PX = 1.5;
+const START_PX = 7;
 /** Of the wall around the frame, as in draw.css. */
 const BORDER_MM = 6;
 
@@ -109,6 +112,23 @@ function Passage(props: {
   );
 }
 
+/** Where the bead starts, or the circle of the goal. */
+function Marked(props: { mark: Mark; at: Mm; mmPerPx: number }): JSX.Element {
+  const radius_mm = (): number =>
+    props.mark === 'goal' ? 1000 * GOAL_RADIUS_M : START_PX * props.mmPerPx;
+  return (
+    <g class="draw-mark" data-mark={props.mark}>
+      <circle cx={props.at[0]} cy={props.at[1]} r={radius_mm()} />
+      <Label
+        at={[props.at[0], props.at[1] - radius_mm() - FONT_PX * props.mmPerPx]}
+        mmPerPx={props.mmPerPx}
+      >
+        {props.mark}
+      </Label>
+    </g>
+  );
+}
+
 export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[] }): JSX.Element {
   const { editor } = props;
   let svg!: SVGSVGElement;
@@ -128,6 +148,14 @@ export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[
     onCleanup(() => observer.disconnect());
   });
   const shapes = createMemo(() => editor.editing().drawing.shapes);
+  /** As they are, or as they are dragged. */
+  const marks = createMemo(() => {
+    const { drawing, tool, trace, snap_mm } = editor.editing();
+    const last = trace.at(-1);
+    const dragged = last && (tool === 'start' || tool === 'goal');
+    const all = { ...drawing.marks, ...(dragged && { [tool]: snapped(last, snap_mm) }) };
+    return Object.entries(all) as [Mark, Mm][];
+  });
   const by = createMemo(() => shift(editor.editing()));
   const begun = createMemo(() => {
     const now = editor.editing();
@@ -212,6 +240,7 @@ export function Surface(props: { editor: Editor; passages: readonly NarrowPlace[
           <Passage place={place} isNarrowest={index() === 0} mmPerPx={mmPerPx()} />
         )}
       </For>
+      <For each={marks()}>{([mark, at]) => <Marked mark={mark} at={at} mmPerPx={mmPerPx()} />}</For>
       <Show when={size()}>
         {(one) => (
           <Label at={one().at} mmPerPx={mmPerPx()}>

@@ -1,6 +1,6 @@
 // The drawing in the browser's storage, so that a reload does not lose it.
 
-import type { Drawing, Frame, Mm, Shape } from './drawing';
+import type { Drawing, Frame, Marks, Mm, Shape } from './drawing';
 
 const isNumber = (value: unknown): value is number => Number.isFinite(value);
 
@@ -22,16 +22,23 @@ function isFrame(value: unknown): value is Frame {
   return [x_mm, y_mm, width_mm, height_mm].every(isNumber);
 }
 
+/** The marks that are whole. */
+function marksFrom(value: unknown): Marks {
+  const { start, goal } = Object(value) as Record<string, unknown>;
+  return { ...(isPlace(start) && { start }), ...(isPlace(goal) && { goal }) };
+}
+
 /** The stored drawing; undefined if it is missing or damaged. */
 export function draftFrom(text: string | null): Drawing | undefined {
   try {
-    const { frame, positioner, shapes } = JSON.parse(text ?? '') as Record<string, unknown>;
+    const { frame, positioner, shapes, marks } = JSON.parse(text ?? '') as Record<string, unknown>;
     const isWhole =
       isFrame(frame) &&
       (positioner === 'arm' || positioner === 'planar_stage') &&
       Array.isArray(shapes) &&
       shapes.every(isShape);
-    return isWhole ? { frame, positioner, shapes } : undefined;
+    if (!isWhole) return undefined;
+    return { frame, positioner, shapes, ...(marks !== undefined && { marks: marksFrom(marks) }) };
   } catch {
     return undefined;
   }

@@ -34,11 +34,17 @@ export interface Frame {
   readonly height_mm: number;
 }
 
+/** Places of a trial: where the bead starts, and to which goal it is to be carried. They are not in the SVG. */
+export type Mark = 'start' | 'goal';
+
+export type Marks = Readonly<Partial<Record<Mark, Mm>>>;
+
 export interface Drawing {
   readonly frame: Frame;
   /** What moves the magnet over this map. */
   readonly positioner: PositionerKind;
   readonly shapes: readonly Shape[];
+  readonly marks?: Marks;
 }
 
 /** The workspace of most shipped maps, which the arm reaches. */
@@ -69,10 +75,16 @@ export function moved(shape: Shape, [right_mm, down_mm]: Mm): Shape {
 }
 
 /** Exchanges the sides of the frame, or its ends. */
+export const mirroredPlace =
+  (frame: Frame, axis: 'sides' | 'ends') =>
+  ([x, y]: Mm): Mm => {
+    const sum_x = 2 * frame.x_mm + frame.width_mm;
+    const sum_y = 2 * frame.y_mm + frame.height_mm;
+    return axis === 'sides' ? [sum_x - x, y] : [x, sum_y - y];
+  };
+
 export function mirrored(shape: Shape, frame: Frame, axis: 'sides' | 'ends'): Shape {
-  const sum_x = 2 * frame.x_mm + frame.width_mm;
-  const sum_y = 2 * frame.y_mm + frame.height_mm;
-  return mapped(shape, ([x, y]) => (axis === 'sides' ? [sum_x - x, y] : [x, sum_y - y]));
+  return mapped(shape, mirroredPlace(frame, axis));
 }
 
 /** Closed lines around a shape. That around a wall goes to its end and back. */

@@ -170,3 +170,28 @@ describe('a shape that is there', () => {
     ]);
   });
 });
+
+describe('start and goal', () => {
+  it('are placed on the grid, moved, removed by a click on them, and mirrored with the drawing', () => {
+    const placed = run([
+      tool('start'),
+      click(-101, 299),
+      tool('goal'),
+      drag(0, 300),
+      drag(52, 348),
+      DROP,
+    ]);
+    expect(placed.drawing.marks).toEqual({ start: [-100, 300], goal: [50, 350] });
+    expect(placed.drawing.shapes).toEqual([]);
+    expect(run([click(70, 300)], placed).drawing.marks?.goal).toEqual([70, 300]);
+    expect(run([click(51, 349)], placed).drawing.marks).toEqual({ start: [-100, 300] });
+    // The middle of the frame is at x = −10.
+    expect(run([{ type: 'mirror', axis: 'sides' }], placed).drawing.marks).toEqual({
+      start: [80, 300],
+      goal: [-70, 350],
+    });
+    expect(run([tool('wall'), click(0, 300), { type: 'finish' }], placed).drawing.marks).toEqual(
+      placed.drawing.marks,
+    );
+  });
+});

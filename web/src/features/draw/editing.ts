@@ -5,7 +5,9 @@ import { carved, simplified } from './carve';
 import {
   clampedTo,
   type Drawing,
+  type Mark,
   mirrored,
+  mirroredPlace,
   type Mm,
   movedInside,
   type Shape,
@@ -16,7 +18,7 @@ import {
   withImages,
 } from './drawing';
 
-export type Tool = 'wall' | 'post' | 'area' | 'erase' | 'move';
+export type Tool = 'wall' | 'post' | 'area' | 'erase' | 'move' | Mark;
 /** Tools with a size: width of a wall, diameter of a post, width of the eraser. */
 export type Brush = 'wall' | 'post' | 'erase';
 
@@ -84,6 +86,13 @@ function withShapes(editing: Editing, shapes: readonly Shape[]): Editing {
 function added(editing: Editing, shape: Shape): Editing {
   const { frame, shapes } = editing.drawing;
   return withShapes(editing, [...shapes, ...withImages(shape, frame, editing.symmetry)]);
+}
+
+function marked(editing: Editing, mark: Mark, at: Mm | undefined): Editing {
+  const { [mark]: before, ...others } = editing.drawing.marks ?? {};
+  if (!before && !at) return editing;
+  const marks = at ? { ...others, [mark]: at } : others;
+  return { ...editing, ...IDLE, drawing: { ...editing.drawing, marks } };
 }
 
 const wallOf = ({ size_mm }: Editing, points: readonly Mm[]): Wall => ({
@@ -183,6 +192,9 @@ function clicked(editing: Editing, pointer: Mm, slop_mm: number): Editing {
       return erased(editing, [pointer]);
     case 'move':
       return { ...editing, selected: shapeAt(drawing, pointer, slop_mm) };
+    case 'start':
+    case 'goal':
+      return marked(editing, tool, isNear(drawing.marks?.[tool]) ? undefined : at);
   }
 }
 
@@ -212,6 +224,9 @@ function dropped(editing: Editing): Editing {
       ? { ...editing, ...IDLE }
       : replaced(editing, (shape) => movedInside(shape, by, editing.drawing.frame));
   if (tool === 'erase') return erased(editing, trace);
+  const last = trace.at(-1);
+  if (last && (tool === 'start' || tool === 'goal'))
+    return marked(editing, tool, snapped(last, editing.snap_mm));
   if (tool === 'wall') return added(editing, wallOf(editing, simplified(trace, SMOOTH_MM)));
   const shape = pending(editing);
   const isSlip = shape?.kind === 'area' && isTooSmall(shape.rings[0] ?? []);
@@ -249,9 +264,13 @@ export function after(editing: Editing, step: Step): Editing {
     case 'mirror': {
       const whole = finished(editing);
       const mirror = (shape: Shape): Shape => mirrored(shape, drawing.frame, step.axis);
-      return selected === undefined
-        ? withShapes(whole, whole.drawing.shapes.map(mirror))
-        : replaced(whole, mirror);
+      if (selected !== undefined) return replaced(whole, mirror);
+      const place = mirroredPlace(drawing.frame, step.axis);
+      const marks = Object.entries(whole.drawing.marks ?? {}) as [Mark, Mm][];
+      return marks.reduce(
+        (now, [mark, at]) => marked(now, mark, place(at)),
+        withShapes(whole, whole.drawing.shapes.map(mirror)),
+      );
     }
     case 'tool':
       return { ...finished(editing), tool: step.tool, selected: undefined };

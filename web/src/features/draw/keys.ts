@@ -11,11 +11,17 @@ export const TOOL_KEYS: Readonly<Record<Tool, string>> = {
   area: 'a',
   erase: 'e',
   move: 'm',
+  start: 's',
+  goal: 'g',
 };
 
 /** Shown in the help. The drawing handles these keys itself. */
 export const DRAW_SHORTCUTS: readonly Shortcut[] = [
-  { group: 'Draw', keys: Object.values(TOOL_KEYS), does: 'wall, post, area, erase, move' },
+  {
+    group: 'Draw',
+    keys: Object.values(TOOL_KEYS),
+    does: 'wall, post, area, erase, move, start, goal',
+  },
   {
     group: 'Draw',
     keys: ['ArrowLeft', 'ArrowUp', 'ArrowRight', 'ArrowDown'],

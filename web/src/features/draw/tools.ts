@@ -1,6 +1,15 @@
 // The tools: what each does, and what can be set for it.
 
-import { Circle, Hand, type IconNode, Route, SquareDashedMousePointer, X } from 'lucide';
+import {
+  Circle,
+  CircleDot,
+  Flag,
+  Hand,
+  type IconNode,
+  Route,
+  SquareDashedMousePointer,
+  X,
+} from 'lucide';
 import type { Brush, Tool } from './editing';
 
 /** Id of the text that describes the tool. */
@@ -48,6 +57,18 @@ export const TOOLS: readonly About[] = [
     name: 'Move',
     icon: Hand,
     help: 'Click a shape to select it. Drag it to another place.',
+  },
+  {
+    tool: 'start',
+    name: 'Start',
+    icon: CircleDot,
+    help: 'Click where the bead starts. Click it again to remove it: then the seed chooses the place.',
+  },
+  {
+    tool: 'goal',
+    name: 'Goal',
+    icon: Flag,
+    help: 'Click where the bead is to be carried. Click it again to remove it: then it is far from the start.',
   },
 ];
 

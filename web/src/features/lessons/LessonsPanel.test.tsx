@@ -80,7 +80,7 @@ it('counts no delivery to a goal that the user has moved, and says so', async ()
   server.tell({ type: 'event', ...eventAt(1250, 'delivered') });
   server.state({ tick: 1250, sim_time_s: 10, goal_m: [0.1, -0.36, 0], tool_m: [0.1, -0.36, 0.1] });
   await expect.element(moved).toBeVisible();
-  await expect.element(page.getByText('1 of 3 done')).toBeVisible();
+  await expect.element(page.getByText('2 of 3 done')).toBeVisible();
 });
 
 it('has the next task for a phone while an experiment of the lesson is on the page', async () => {

@@ -1,24 +1,28 @@
 // Loads a map from a file on the user's computer.
 
-import { For, Show, onCleanup, type JSX } from 'solid-js';
-import type { Session } from '../../lab/slices';
+import { For, Show, type JSX } from 'solid-js';
+import type { Session, Trial } from '../../lab/slices';
 import { isOutOfReach, reportWords } from '../../lab/maps';
 import { CloseButton } from '../../ui/CloseButton';
 import { FileButton } from '../../ui/FileButton';
 import { shownName } from '../../ui/name';
 import type { MapOpener } from './opener';
+import { solves } from './policyTrials';
+import { TrialLines } from './TrialLines';
 import { SmallButton } from '../../ui/SmallButton';
 import './maps.css';
 
 export function OpenMap(props: {
-  lab: Session;
+  lab: Session & Trial;
   opener: MapOpener;
   /** Opens the view Train with the map. */
   onTrain: () => void;
 }): JSX.Element {
   const { lab, opener } = props;
-  // Another view is opened.
-  onCleanup(opener.dismiss);
+  const trials = opener.trials.all;
+  /** None of the shipped policies solves it. */
+  const isUnsolved = (): boolean =>
+    trials().length > 0 && trials().every((one) => one.outcome.kind !== 'trying' && !solves(one));
   const isOff = (): boolean => !lab.canOperate() || opener.isBusy();
   return (
     <>
@@ -42,6 +46,12 @@ export function OpenMap(props: {
               <CloseButton label="Dismiss the report" onClose={opener.dismiss} />
             </header>
             <For each={reportWords(now().report)}>{(words) => <p>{words}</p>}</For>
+            <TrialLines lab={lab} trials={trials()} />
+            <Show when={trials().length > 0}>
+              <p class="hint">
+                Trials with random starts and goals, in the background. Evaluate lists them.
+              </p>
+            </Show>
             <footer>
               <Show when={isOutOfReach(now().report)}>
                 <button
@@ -49,12 +59,13 @@ export function OpenMap(props: {
                   class="small primary"
                   title="Adds the drawing again, in the middle of the arm's reach, and smaller if it is too large"
                   disabled={isOff()}
-                  onClick={() => void opener.open(now().file, true)}
+                  onClick={() => void opener.open(now().file, { fit: true })}
                 >
                   Move into reach
                 </button>
               </Show>
               <SmallButton
+                classList={{ small: true, primary: isUnsolved() }}
                 title="Opens the view Train: a policy learns this map"
                 onClick={() => props.onTrain()}
               >

@@ -5,7 +5,14 @@ import { loadTrial } from '../../lab/loadTrial';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { MapReport } from '../../net/protocol.gen';
 import { addMap, isOutOfReach } from '../../lab/maps';
+import { createPolicyTrials } from './policyTrials';
 import { reasonText } from '../../net/problem';
+
+interface Opening {
+  readonly fit?: boolean;
+  readonly start_m?: [number, number];
+  readonly goal_m?: [number, number];
+}
 
 interface Added {
   readonly file: File;
@@ -15,11 +22,14 @@ interface Added {
 export function createMapOpener(lab: Session & Trial & Notices) {
   const [isBusy, setBusy] = createSignal(false);
   const [added, setAdded] = createSignal<Added>();
+  /** Of the shipped policies on the new map. */
+  const trials = createPolicyTrials(lab.catalog);
   const say = (text: string): void => {
     lab.notify('playback', text);
   };
   return {
     isBusy,
+    trials,
     /** The new map, until it is dismissed or another map is chosen. */
     added: (): Added | undefined => {
       const now = added();
@@ -28,10 +38,10 @@ export function createMapOpener(lab: Session & Trial & Notices) {
       return stays ? now : undefined;
     },
     /**
-     * Adds a drawing and starts a trial on it. `fit` moves it into the arm's reach. Returns whether it was added, and
-     * says why if it was not.
+     * Adds a drawing and starts a trial on it, with a start and a goal if they are given. `fit` moves it into the arm's
+     * reach. Returns whether it was added, and says why if it was not.
      */
-    open: async (file: File, fit = false): Promise<boolean> => {
+    open: async (file: File, { fit = false, ...places }: Opening = {}): Promise<boolean> => {
       if (!lab.canOperate()) {
         say('Take control to open a map.');
         return false;
@@ -44,7 +54,8 @@ export function createMapOpener(lab: Session & Trial & Notices) {
       try {
         const report = await addMap(file, fit);
         setAdded({ file, report });
-        await loadTrial(lab, 'playback', { map: report.name });
+        const answer = await loadTrial(lab, 'playback', { map: report.name, ...places });
+        if (answer?.kind === 'done') void trials.start(report.name);
         return true;
       } catch (reason) {
         say(reasonText(reason));
