@@ -45,9 +45,6 @@ fn facts() -> Vec<(&'static str, f64, &'static str)> {
     let strongest =
         (0..curve.offset_m.len()).max_by(|&a, &b| curve.lateral_ratio[a].total_cmp(&curve.lateral_ratio[b]));
     let strongest = strongest.unwrap();
-    let drag_ratio = parameters.drag_n_s_m * parameters.transport_speed_m_s / weight_n();
-    let is_enough = |&i: &usize| curve.lateral_ratio[i] >= parameters.friction * curve.weight_ratio[i] + drag_ratio;
-    let following = (0..curve.offset_m.len()).find(is_enough).unwrap();
     let (inner_m, outer_m) = curve.capture_m.unwrap();
     let nine_tenths = (0..flat.lift_ratio.len()).rfind(|&i| flat.lift_ratio[i] >= 0.9).unwrap();
     vec![
@@ -57,7 +54,6 @@ fn facts() -> Vec<(&'static str, f64, &'static str)> {
         ("fetch_radius_m", parameters.fetch_radius_m, "Default fetch radius."),
         ("strongest_pull", curve.lateral_ratio[strongest], "Largest sideways pull over the bead's weight."),
         ("strongest_at_m", curve.offset_m[strongest], "Offset of the largest sideways pull."),
-        ("follows_at_m", curve.offset_m[following], "Offset at which the pull carries the bead at transport speed."),
         ("rests_at_m", inner_m, "Offset at which the pull of a magnet at rest equals friction."),
         ("reach_m", outer_m, "Farthest offset at which the pull overcomes friction."),
         ("greatest_speed_m_s", flat.largest_speed_m_s.last().unwrap().unwrap(), "Largest speed of a carried bead."),

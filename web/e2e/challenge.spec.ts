@@ -65,6 +65,12 @@ test('a challenge from a link is played, explained and put on the board', async 
   await until('the challenge', () => lab.scene.challenge === NAME);
   await expect(lab.tab('Play')).toHaveAttribute('aria-selected', 'true');
   await expect(lab.setUpButton).toHaveText(/^Challenge\s*Easy · e · posts$/i);
+  // Its link is for each player.
+  await lab.button('Share').click();
+  await expect(page.getByLabel('Link: This challenge')).toHaveValue(
+    `${new URL(page.url()).origin}/copy/#challenge=${NAME}`,
+  );
+  await page.keyboard.press('Escape');
   const way = await errtWay(lab);
   await play(lab, way, 2 * SECOND_TICKS);
   expect(lab.state.running, 'the session pauses').toBe(false);

@@ -4,7 +4,10 @@ import { readFile } from 'node:fs/promises';
 import { expect } from '@playwright/test';
 import { test } from './fixtures';
 import { check, drawAlong } from './support/drawing';
-import { must } from './support/wait';
+import { must, until } from './support/wait';
+
+/** Ten trials on a busy machine. */
+const TRIED_MS = 90_000;
 
 test('draws a maze, corrects what the check finds, and RL delivers on it', async ({
   lab,
@@ -107,6 +110,41 @@ test('keeps what is begun, over a visit to the laboratory and in the saved map',
   await lab.view('Lab').click();
   await lab.reset({ map: 'posts' });
   expect((await page.request.delete(`${server.url}/api/maps/kept`)).status()).toBe(204);
+});
+
+test('a drawing brings its start and goal, and the shipped policies are tried on it', async ({
+  lab,
+  server,
+}) => {
+  const { page } = lab;
+  await lab.view('Draw').click();
+  await drawAlong(page, [-100, 215], [-100, 450]);
+  await lab.radio('Start').click();
+  await drawAlong(page, [-220, 300], [-100, 300]);
+  await expect(check(lab)).toContainText('The start is in a wall');
+  await expect(lab.button('Save and use')).toBeDisabled();
+  await drawAlong(page, [-100, 300], [-220, 300]);
+  await lab.radio('Goal').click();
+  await drawAlong(page, [200, 400], [200, 450]);
+  await page.getByLabel('Name').fill('marked');
+  await lab.button('Save and use').click();
+  await until('the map', () => lab.scene.map === 'marked' && lab.state.goal_m);
+  expect(await lab.goal()).toEqual([0.2, -0.45]);
+  expect(lab.scene.scenario.start_m).toEqual([-0.22, -0.3]);
+  const trials = page.getByRole('list', { name: 'Shipped policies on this map' });
+  await expect(trials).toContainText('explorer solves this map: 5 of 5 trials', {
+    timeout: TRIED_MS,
+  });
+  await expect(trials).toContainText(/general (solves|does not solve) this map: \d of 5 trials/, {
+    timeout: TRIED_MS,
+  });
+  await lab.button('Let explorer carry').click();
+  await until('RL', () => lab.state.controller === 'rl');
+  expect(lab.scene.parameters.rl_policy).toBe('explorer');
+  await lab.deliver();
+  await lab.restoreDefaults();
+  await lab.reset({ map: 'posts' });
+  expect((await page.request.delete(`${server.url}/api/maps/marked`)).status()).toBe(204);
 });
 
 test('a link brings a drawn map to a server that does not have it', async ({ lab, server }) => {

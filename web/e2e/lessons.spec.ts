@@ -1,6 +1,6 @@
 // Does every lesson to its end: its experiments must confirm its claim.
 
-import { DAILY, LONG, type Lab, expect, test } from './fixtures';
+import { DAILY, LONG, Lab, expect, test } from './fixtures';
 import { TRAIN_MS, clearTrainings } from './support/trainings';
 import { until } from './support/wait';
 
@@ -186,7 +186,34 @@ test('does the first lesson by keyboard, and remembers it after a reload', async
   await expect(page.getByLabel(second)).toBeChecked();
   for (let i = 0; i < 2; i++) await lab.button('Next').press('Enter');
   await lab.button('Next lesson').press('Enter');
+  await expect(page.getByRole('heading', { name: 'Lift-off' })).toBeVisible();
+});
+
+test('the link of a lesson opens it in a session of the pupil’s own', async ({
+  lab,
+  browser,
+  server,
+}) => {
+  await lab.panel('Learn');
+  await lab.button('Link to Lose the bead').click();
+  const link = await lab.page.getByLabel('Link: Lesson Lose the bead').inputValue();
+  await lab.page.getByRole('button', { name: VIEWER_LESSON.title }).click();
+  await lab.button('Share').click();
+  await expect(lab.page.getByLabel('Link: This lesson')).toHaveValue(link);
+  // A browser that has never been here.
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  const pupil = new Lab(page);
+  await page.goto(link);
+  await page.getByRole('link', { name: 'Open it' }).click();
+  await pupil.live();
+  await pupil.isRole('operator');
   await expect(page.getByRole('heading', { name: 'Lose the bead' })).toBeVisible();
+  expect(pupil.hello.session).not.toBe(lab.hello.session);
+  await pupil.button('All lessons').click();
+  await expect(page.getByText('0 of 12 done')).toBeVisible();
+  await context.close();
+  await fetch(`${server.url}/api/sessions/${pupil.hello.session}`, { method: 'DELETE' });
 });
 
 test('allows a viewer to predict, but not to set up a run', async ({ lab, openLab }) => {

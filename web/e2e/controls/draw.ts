@@ -56,6 +56,8 @@ export const DRAW: Section = {
     'radio Area': chosen('Wall'),
     'radio Erase': chosen('Wall'),
     'radio Move': chosen('Wall'),
+    'radio Start': chosen('Wall'),
+    'radio Goal': chosen('Wall'),
     'slider Width': { see: valueOf, ready: tool('Wall') },
     'slider Diameter': { see: valueOf, ready: tool('Post') },
     'button Snap to 5 mm': { see: isPressed, isToggle: true },

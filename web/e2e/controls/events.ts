@@ -4,7 +4,7 @@ import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
 import { ensureGoal, ensureNoGoal, ensurePaused, open, showPanel } from '../support/preconditions';
 import { must, until } from '../support/wait';
-import { type Section, dialogs, downloads, isChecked, lastSent } from './row';
+import { type Section, dialogs, downloads, expanded, isChecked, lastSent, toggle } from './row';
 
 const COMPUTED_MS = 60_000;
 
@@ -176,18 +176,19 @@ export const COMPARE: Section = {
 
 const LESSON_TITLES = [
   'Meet the magnet',
+  'Lift-off',
   'Lose the bead',
   'The threshold T',
   'The law to the letter',
   'Why the attractor gets stuck',
   'What ERRT remembers',
   'What the policy sees',
+  'The gut moves',
   'Why learning fails',
   'How far the goal is felt',
   'A head start',
-  'Lift-off',
-  'The gut moves',
 ];
+const OF_LESSONS = 'the link of a lesson opens it in a session of the pupil’s own';
 const FIRST_CHOICES = /^(Right below the|A little behind|Far behind)/;
 
 const allLessons = async (lab: Lab) => {
@@ -219,6 +220,9 @@ export const LESSONS: Section = {
         { see: lessonHeadings, after: allLessons },
       ]),
     ),
+    'button /^Link to /': toggle(expanded, allLessons),
+    'textbox /^Link: Lesson /': { elsewhere: OF_LESSONS },
+    'button /^Copy: Lesson /': { elsewhere: OF_LESSONS },
     [`radio /${FIRST_CHOICES.source}/`]: { see: isChecked, ready: openLesson },
     'button Next': { see: step, ready: predict },
     'button Back': { see: step, ready: goToRun },

@@ -245,6 +245,9 @@ export const EXPERIMENTS: Section = {
     'button Dismiss the report': {
       elsewhere: 'opens an uploaded map, and delivers the bead on it',
     },
+    'button /^Let (explorer|general) carry$/': {
+      elsewhere: 'a drawing brings its start and goal, and the shipped policies are tried on it',
+    },
     'button Train a policy on it': {
       elsewhere: 'draws a maze, trains on it, uses the policy, and it delivers',
     },

@@ -6,11 +6,10 @@ import { createChoice } from '../ui/storage';
 export function createFirstVisit(address: Address, page: Window) {
   const [visit, setVisit] = createChoice('visit', ['first', 'done']);
   const { search, hash } = page.location;
-  const isPlain = search === '' && hash === '';
-  if (!isPlain) setVisit('done');
+  const isPlace = address.view() !== 'laboratory' || address.lesson() !== undefined;
+  if (search !== '' || hash !== '' || isPlace) setVisit('done');
   return {
-    isOpen: (): boolean =>
-      visit() === 'first' && address.view() === 'laboratory' && address.lesson() === undefined,
+    isOpen: (): boolean => visit() === 'first',
     end: (): void => {
       setVisit('done');
     },

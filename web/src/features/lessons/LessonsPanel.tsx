@@ -41,7 +41,7 @@ function LessonRow(props: {
             </Show>
           </strong>
           <small>
-            {lesson.aim} {lesson.minutes} min
+            {lesson.aim} {`${lesson.minutes}\u00a0min`}
           </small>
         </span>
       </button>

@@ -13,8 +13,6 @@ export const FACTS = {
   strongest_pull: 0.2646,
   /** Offset of the largest sideways pull. */
   strongest_at_m: 0.051,
-  /** Offset at which the pull carries the bead at transport speed. */
-  follows_at_m: 0.0156,
   /** Offset at which the pull of a magnet at rest equals friction. */
   rests_at_m: 0.0044,
   /** Farthest offset at which the pull overcomes friction. */

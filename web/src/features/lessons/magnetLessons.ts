@@ -48,7 +48,7 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
   ],
   why: [
     `Right below the magnet there is no sideways pull. The pull grows with the distance to the side, up to ${fixed(FACTS.strongest_pull, 2)} of the bead’s weight at ${centimetres(FACTS.strongest_at_m)}. Farther out it becomes weaker again.`,
-    `The moving bead stays at the distance where the pull equals friction plus drag: ${centimetres(FACTS.follows_at_m)} at ${millimetres(FACTS.transport_speed_m_s)}/s. When the magnet stops, there is no drag, and the bead slides to ${centimetres(FACTS.rests_at_m)} from the magnet.`,
+    `The moving bead stays at the distance where the pull equals friction plus drag: at ${millimetres(FACTS.transport_speed_m_s)}/s, the distance that your run has measured. When the magnet stops, there is no drag, and the bead slides to ${centimetres(FACTS.rests_at_m)} from the magnet.`,
     `Even the strongest pull cannot move the bead faster than ${millimetres(FACTS.greatest_speed_m_s)}/s. A faster magnet would leave it behind.`,
   ],
   paper: `Section V: the magnets, and the plane ${millimetres(FACTS.height_m)} above the table.`,

@@ -16,7 +16,7 @@ type Outcome =
   | { readonly kind: 'tried'; readonly delivered: number }
   | { readonly kind: 'failed'; readonly why: string };
 
-/** What is known of one policy on the map. */
+/** One policy on the map. */
 export interface PolicyTrial {
   readonly policy: string;
   readonly outcome: Outcome;
