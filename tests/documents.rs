@@ -54,7 +54,8 @@ fn delivered(path: &str, controller: &str, map: &str, disturbances: u64) -> (u64
 fn the_readme_counts_what_the_code_has() {
     let lessons = text("web/src/features/lessons/lessons.ts");
     let lessons = between(&lessons, "GROUPS: readonly Group[] = [", "\n];");
-    let lessons: usize = lessons.split("lessons: [").skip(1).map(|group| group.split(',').count() - 1).sum();
+    let groups = lessons.split("lessons: [").skip(1);
+    let lessons: usize = groups.map(|group| group.split_once(']').unwrap().0.split(',').count()).sum();
     states("README.md", &format!("{} lessons ask for a prediction", WORDS[lessons]));
     // The controllers that the page compares, each named.
     let controllers = ["a trained Rainbow-IQN policy (RL)", "the path planner ERRT", "or attractor dynamics"];

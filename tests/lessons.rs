@@ -2,7 +2,6 @@
 //! renews them.
 
 use ferry_core::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery, pull, reach};
-use ferry_core::magnetics::dipole::weight_n;
 use ferry_core::magnetics::force::Orientation;
 use ferry_core::scenario::Parameters;
 

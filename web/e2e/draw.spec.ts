@@ -6,7 +6,7 @@ import { test } from './fixtures';
 import { check, drawAlong } from './support/drawing';
 import { must, until } from './support/wait';
 
-/** Ten trials on a busy machine. */
+/** Five trials on a busy machine, after others. */
 const TRIED_MS = 90_000;
 
 test('draws a maze, corrects what the check finds, and RL delivers on it', async ({
@@ -133,9 +133,6 @@ test('a drawing brings its start and goal, and the shipped policies are tried on
   expect(lab.scene.scenario.start_m).toEqual([-0.22, -0.3]);
   const trials = page.getByRole('list', { name: 'Shipped policies on this map' });
   await expect(trials).toContainText('explorer solves this map: 5 of 5 trials', {
-    timeout: TRIED_MS,
-  });
-  await expect(trials).toContainText(/general (solves|does not solve) this map: \d of 5 trials/, {
     timeout: TRIED_MS,
   });
   await lab.button('Let explorer carry').click();

@@ -7,7 +7,6 @@ import { CloseButton } from '../../ui/CloseButton';
 import { FileButton } from '../../ui/FileButton';
 import { shownName } from '../../ui/name';
 import type { MapOpener } from './opener';
-import { solves } from './policyTrials';
 import { TrialLines } from './TrialLines';
 import { SmallButton } from '../../ui/SmallButton';
 import './maps.css';
@@ -20,9 +19,6 @@ export function OpenMap(props: {
 }): JSX.Element {
   const { lab, opener } = props;
   const trials = opener.trials.all;
-  /** None of the shipped policies solves it. */
-  const isUnsolved = (): boolean =>
-    trials().length > 0 && trials().every((one) => one.outcome.kind !== 'trying' && !solves(one));
   const isOff = (): boolean => !lab.canOperate() || opener.isBusy();
   return (
     <>
@@ -65,7 +61,7 @@ export function OpenMap(props: {
                 </button>
               </Show>
               <SmallButton
-                classList={{ small: true, primary: isUnsolved() }}
+                classList={{ small: true, primary: opener.trials.isUnsolved() }}
                 title="Opens the view Train: a policy learns this map"
                 onClick={() => props.onTrain()}
               >

@@ -55,7 +55,7 @@ export function createMapOpener(lab: Session & Trial & Notices) {
         const report = await addMap(file, fit);
         setAdded({ file, report });
         const answer = await loadTrial(lab, 'playback', { map: report.name, ...places });
-        if (answer?.kind === 'done') void trials.start(report.name);
+        if (answer?.kind === 'done') trials.start(report.name);
         return true;
       } catch (reason) {
         say(reasonText(reason));
@@ -65,6 +65,7 @@ export function createMapOpener(lab: Session & Trial & Notices) {
       }
     },
     dismiss: (): void => {
+      trials.stop();
       setAdded(undefined);
     },
   };

@@ -96,35 +96,50 @@ async function open(answerTo: (policy: string) => unknown) {
   return { server, asked };
 }
 
-it('tries the shipped policies that know more than one map, and says which one solves it', async () => {
+it('tries a shipped policy that knows more than one map, and no other if it solves this one', async () => {
   const { server, asked } = await open((name) => evaluation(name, 'waiting', 0, 0));
-  await expect.element(line(/^The shipped policy general is tried: 0 of 5/)).toBeVisible();
-  await expect.poll(() => asked).toEqual(['explorer', 'general']);
+  await expect.element(line(/^The shipped policy explorer is tried: 0 of 5/)).toBeVisible();
   server.lists({ evaluations: [evaluation('explorer', 'running', 3, 3)] });
   await expect.element(line(/^The shipped policy explorer is tried: 3 of 5/)).toBeVisible();
-  server.lists({
-    evaluations: [evaluation('explorer', 'done', 5, 5), evaluation('general', 'done', 5, 3)],
-  });
+  server.lists({ evaluations: [evaluation('explorer', 'done', 5, 5)] });
   await expect.element(line(/^The shipped policy explorer solves this map: 5 of 5/)).toBeVisible();
-  await expect
-    .element(line(/^The shipped policy general does not solve this map: 3/))
-    .toBeVisible();
   await expect.element(train).not.toHaveClass('primary');
+  expect(asked).toEqual(['explorer']);
   await page.getByRole('button', { name: 'Let explorer carry' }).click();
   await expect.poll(() => server.command('configure')?.parameters.rl_policy).toBe('explorer');
   server.done();
   await expect.poll(() => server.command('select_controller')?.controller).toBe('rl');
 });
 
-it('leads to the training only when no shipped policy solves it, and says what was refused', async () => {
-  const { server } = await open((name) =>
-    name === 'general' ? refusal('too many evaluations') : evaluation(name, 'waiting', 0, 0),
-  );
-  await expect.element(line(/general could not be tried: too many evaluations/)).toBeVisible();
-  await expect.element(train).not.toHaveClass('primary');
+it('leads to the training when no shipped policy solves the map', async () => {
+  const { server, asked } = await open((name) => evaluation(name, 'waiting', 0, 0));
+  await expect.poll(() => asked).toEqual(['explorer']);
   server.lists({ evaluations: [evaluation('explorer', 'done', 5, 4)] });
+  await expect.poll(() => asked).toEqual(['explorer', 'general']);
   await expect
     .element(line(/^The shipped policy explorer does not solve this map: 4/))
     .toBeVisible();
+  await expect.element(train).not.toHaveClass('primary');
+  server.lists({
+    evaluations: [evaluation('explorer', 'done', 5, 4), evaluation('general', 'done', 5, 3)],
+  });
+  await expect
+    .element(line(/^The shipped policy general does not solve this map: 3/))
+    .toBeVisible();
   await expect.element(train).toHaveClass('primary');
+});
+
+it('says why no policy could be tried', async () => {
+  await open(() => refusal('the queue is full'));
+  await expect.element(line(/general could not be tried: the queue is full/)).toBeVisible();
+  await expect.element(train).not.toHaveClass('primary');
+});
+
+it('cancels the trials when the report is dismissed', async () => {
+  const { server, asked } = await open((name) => evaluation(name, 'waiting', 0, 0));
+  await expect.poll(() => asked).toEqual(['explorer']);
+  server.lists({ evaluations: [evaluation('explorer', 'running', 1, 1)] });
+  await expect.element(line(/1 of 5 trials/)).toBeVisible();
+  await page.getByRole('button', { name: 'Dismiss the report' }).click();
+  await expect.poll(() => server.requests).toContain('DELETE /api/evaluations/explorer');
 });

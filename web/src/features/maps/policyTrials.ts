@@ -1,10 +1,10 @@
 // Whether a shipped policy delivers on a new map: a few trials of each in the background, as evaluations.
 
-import { createSignal } from 'solid-js';
+import { createEffect, createMemo, createSignal } from 'solid-js';
 import type { Catalog } from '../../lab/catalog';
 import type { EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
 import { reasonText } from '../../net/problem';
-import { post } from '../../net/requests';
+import { post, remove } from '../../net/requests';
 
 /** Of each policy, with random starts and goals. */
 export const TRIALS = 5;
@@ -49,7 +49,15 @@ export function createPolicyTrials(catalog: Catalog) {
     (catalog.policies() ?? [])
       .filter(({ is_shipped, maps }) => is_shipped && maps.length > 1)
       .map(({ reference }) => reference);
-  const startOne = async (map: string, policy: string): Promise<Started> => {
+  const all = createMemo((): readonly PolicyTrial[] =>
+    started().map((one) => ({
+      policy: one.policy,
+      outcome: outcomeOf(one, catalog.evaluations() ?? []),
+    })),
+  );
+  let map: string | undefined;
+  const startOne = async (policy: string, before: readonly Started[]): Promise<void> => {
+    if (map === undefined) return;
     const query: EvaluationQuery = {
       controllers: ['rl'],
       maps: [map],
@@ -60,28 +68,47 @@ export function createPolicyTrials(catalog: Catalog) {
       program: null,
       vary: [],
     };
+    const asked: readonly Started[] = [...before, { policy, id: undefined }];
+    setStarted(asked);
     try {
       const { id } = await post<EvaluationSummary>('/api/evaluations', JSON.stringify(query));
-      return { policy, id };
+      if (started() === asked) setStarted([...before, { policy, id }]);
+      else await remove(`/api/evaluations/${id}`);
     } catch (reason) {
-      return { policy, id: undefined, refusal: reasonText(reason) };
+      const refusal = reasonText(reason);
+      if (started() === asked) setStarted([...before, { policy, id: undefined, refusal }]);
     }
   };
+  /** Cancels what still runs, and forgets the rest. */
+  const stop = (): void => {
+    const now = started().at(-1);
+    map = undefined;
+    setStarted([]);
+    // It may have ended meanwhile.
+    if (now?.id !== undefined && outcomeOf(now, catalog.evaluations() ?? []).kind === 'trying')
+      void remove(`/api/evaluations/${now.id}`).catch(() => undefined);
+  };
+  // The next one is tried only if the one before does not solve the map.
+  createEffect(() => {
+    const [last, next] = [all().at(-1), offered()[started().length]];
+    if (last && last.outcome.kind !== 'trying' && !solves(last) && next !== undefined)
+      void startOne(next, started());
+  });
   return {
-    /** Tries the policies on a map, one after the other, in place of those on another map. */
-    start: async (map: string): Promise<void> => {
-      setStarted(offered().map((policy) => ({ policy, id: undefined })));
-      const all = started();
-      for (const { policy } of all) {
-        const one = await startOne(map, policy);
-        setStarted((now) => now.map((other) => (other.policy === policy ? one : other)));
-      }
+    /** Tries the policies on a map, one after the other until one solves it. */
+    start: (on: string): void => {
+      stop();
+      map = on;
+      const [first] = offered();
+      if (first !== undefined) void startOne(first, []);
     },
-    all: (): readonly PolicyTrial[] =>
-      started().map((one) => ({
-        policy: one.policy,
-        outcome: outcomeOf(one, catalog.evaluations() ?? []),
-      })),
+    stop,
+    all,
+    /** Whether all were tried and none solves the map. */
+    isUnsolved: (): boolean =>
+      all().length === offered().length &&
+      all().some(({ outcome }) => outcome.kind === 'tried') &&
+      all().every((one) => one.outcome.kind !== 'trying' && !solves(one)),
   };
 }
 
