@@ -205,7 +205,7 @@ test('the link of a lesson opens it in a session of the pupil’s own', async ({
   const page = await context.newPage();
   const pupil = new Lab(page);
   await page.goto(link);
-  await page.getByRole('link', { name: 'Open it' }).click();
+  await page.getByRole('button', { name: 'Open it' }).click();
   await pupil.live();
   await pupil.isRole('operator');
   await expect(page.getByRole('heading', { name: 'Lose the bead' })).toBeVisible();

@@ -6,10 +6,10 @@ import { createChoice } from '../ui/storage';
 export function createFirstVisit(address: Address, page: Window) {
   const [visit, setVisit] = createChoice('visit', ['first', 'done']);
   const { search, hash } = page.location;
-  const isPlace = address.view() !== 'laboratory' || address.lesson() !== undefined;
-  if (search !== '' || hash !== '' || isPlace) setVisit('done');
+  const isPlain = (): boolean => address.view() === 'laboratory' && address.lesson() === undefined;
+  if (search !== '' || hash !== '' || !isPlain()) setVisit('done');
   return {
-    isOpen: (): boolean => visit() === 'first',
+    isOpen: (): boolean => visit() === 'first' && isPlain(),
     end: (): void => {
       setVisit('done');
     },

@@ -1,4 +1,5 @@
-// The page of a shared experiment, lesson or challenge. A link from another site may not open a session, so the user presses a button here.
+// The page of a shared experiment, lesson or challenge. A link from another site may not open a session, so the user
+// presses a button here.
 
 import { belowSession } from '../../lab/copyLink';
 import { openOwn } from '../../lab/ownSession';
