@@ -4,6 +4,7 @@ import { readFile } from 'node:fs/promises';
 import { expect } from '@playwright/test';
 import { test } from './fixtures';
 import { check, drawAlong } from './support/drawing';
+import { showTabs } from './support/preconditions';
 import { must, until } from './support/wait';
 
 /** Five trials on a busy machine, after others. */
@@ -139,6 +140,7 @@ test('a drawing brings its start and goal, and the shipped policies are tried on
   await until('RL', () => lab.state.controller === 'rl');
   expect(lab.scene.parameters.rl_policy).toBe('explorer');
   await lab.deliver();
+  await showTabs(lab);
   await lab.restoreDefaults();
   await lab.reset({ map: 'posts' });
   expect((await page.request.delete(`${server.url}/api/maps/marked`)).status()).toBe(204);
