@@ -89,7 +89,7 @@ async fn a_refusal_is_a_page_for_who_asked_for_a_page() {
         let wrong = exchange(address, head(address, "GET /s/%3Cscript%3E", accepts).as_bytes()).1;
         assert!(wrong.contains("&lt;script&gt;") && wrong.contains("1 to 32 of a to z"), "{wrong}");
         let full = exchange(address, head(address, "GET /s/anna", accepts).as_bytes()).1;
-        assert!(full.contains("all are in use"), "{full}");
+        assert!(full.contains("the server is full"), "{full}");
         // The API answers every client in its own format.
         let (status, problem) = exchange(address, head(address, "GET /api/nowhere", accepts).as_bytes());
         assert!(status == 404 && problem.contains("application/problem+json"), "{problem}");
