@@ -186,6 +186,7 @@ soak: system-test
 	mkdir -p test-output
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent soak
 	cargo bench --quiet --bench load
+	cargo bench --quiet --bench jobs
 
 # Coverage-guided fuzzing: `FUZZ_SECONDS` for each of `FUZZ_TARGETS`, two at a time. It stops at the first input that
 # panics, takes five seconds or two gigabytes, and keeps that input in target/fuzz. Only Ferry's own code is rebuilt, with

@@ -153,11 +153,12 @@ pub struct Server {
     policies: Arc<Library>,
     /// Images of maps, for value maps.
     atlases: Atlases,
-    /// Evaluations and trainings, in the background.
+    /// Evaluations, recovery maps and trainings, in the background.
     jobs: Arc<Queue>,
     contests: Contests,
     /// Programs outside of Ferry that decide control steps.
     programs: Programs,
+    comparisons: Arc<live::Comparisons>,
     evaluations: Evaluations,
     recoveries: Recoveries,
     trainings: Trainings,
@@ -212,10 +213,11 @@ impl Server {
         let policies = Arc::new(Library::in_folder(data.join("policies")));
         let catalog = Catalog { maps: maps.all.clone(), policies: policies.clone() };
         let sessions = Sessions::new(gpu.clone(), recordings.clone(), catalog.clone(), settings, saved, twin)?;
-        let (jobs, sweeps) = (Arc::new(Queue::start(gpu.clone())?), data.join("sweeps"));
+        let (jobs, sweeps) = (Arc::new(Queue::start(&gpu)?), data.join("sweeps"));
         let server = Arc::new(Self {
             contests: Contests::in_folder(data.join("challenges")),
             programs: Programs::default(),
+            comparisons: Arc::new(live::Comparisons::new(gpu.clone(), jobs.clone())),
             evaluations: Evaluations::new(jobs.clone()),
             recoveries: Recoveries::new(jobs.clone()),
             trainings: Trainings::in_folder(
@@ -312,7 +314,7 @@ pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
 }
 
 /// Serves until `stopping` becomes true. Then pauses every session, disconnects the browsers, closes the recordings and
-/// interrupts the job in the background, all within two seconds if the machine is not busy.
+/// interrupts the jobs in the background, all within two seconds if the machine is not busy.
 pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), ServeError> {
     accept::raise_file_limit();
     let sweeper = server.clone();

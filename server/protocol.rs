@@ -45,7 +45,7 @@ pub use error::ErrorMessage;
 pub use evaluations::{Cell, EvaluationCell, EvaluationFailure, EvaluationReport, EvaluationSummary, Evaluations};
 pub use event::EventMessage;
 pub use ferry_core::schema::{Numbers3, Numbers6, Rows3};
-pub use jobs::JobStage;
+pub use jobs::{JobKind, JobLane, JobPace, JobStage, JobSummary, Jobs};
 pub use layers::{
     BlocksLayer, FLOW_SPACING_M, FlowField, FlowQuery, JudgementLayer, OverlayMessage, PixelBlock, PlanLayer,
     SeenMessage, SensedObstacle, ValueCell, ValueMap, ValueQuery,

@@ -1,4 +1,4 @@
-//! Evaluations over HTTP: the same rows as on the command line, in the background, one after the other.
+//! Evaluations over HTTP: the same rows as on the command line, in the background.
 
 use std::time::{Duration, Instant};
 
@@ -147,10 +147,14 @@ async fn the_queue_is_limited_and_entries_can_be_cancelled() {
     lab.evaluation(&long, "a first trial", under_way).await;
     let mut waiting = Vec::new();
     for _ in 0..4 {
-        waiting.push(lab.begin(json!({})).await);
+        waiting.push(lab.begin(json!({"episodes": LONG})).await);
     }
-    let (status, problem) = lab.ask("POST", "/api/evaluations", &query(json!({})).to_string()).await;
+    let more = query(json!({"episodes": LONG})).to_string();
+    let (status, problem) = lab.ask("POST", "/api/evaluations", &more).await;
     assert_eq!((status, &problem["code"]), (429, &json!("too_many_jobs")));
+    assert!(problem["detail"].as_str().unwrap().contains("the lane of long jobs is full"), "{problem}");
+    let short = lab.begin(json!({})).await;
+    assert_eq!(stage(&lab.ended(&short).await), "done", "a short one does not wait for them");
 
     // A waiting evaluation is cancelled at once, a running one soon, without a row.
     let (status, left) = lab.ask("DELETE", &waiting[0], "").await;
@@ -164,7 +168,7 @@ async fn the_queue_is_limited_and_entries_can_be_cancelled() {
     assert_eq!((stage(&report), &report["rows"], &report["rows_done"]), ("cancelled", &json!([]), &json!(0)));
     assert!(report["cells"][0]["done"].as_u64().unwrap() < u64::from(LONG));
     // The next one starts.
-    assert_eq!(stage(&lab.ended(&waiting[1]).await), "done");
+    lab.evaluation(&waiting[1], "a first trial", under_way).await;
     lab.close().await;
 }
 

@@ -28,6 +28,7 @@ mod fuzz;
 mod gates;
 mod golden;
 mod house;
+mod jobs;
 mod kept_runs;
 mod laboratory;
 mod learned;

@@ -170,7 +170,7 @@ async fn the_last_of_many_comparisons_completes() {
     hub.session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
     let mut comparison = hub.comparison();
     for _ in 0..200 {
-        hub.compare(0, &[ControllerName::Attractor]).await.unwrap();
+        server.comparisons.start(&hub, 0, &[ControllerName::Attractor]).await.unwrap();
     }
     let done = comparison.wait_for(|text| text.contains("\"running\":false"));
     tokio::time::timeout(Duration::from_secs(60), done).await.expect("the last comparison ends").unwrap();

@@ -29,6 +29,7 @@ use utoipa::IntoParams;
 
 use self::catalog::Feed;
 pub use self::catalog::{Lists, keep as keep_lists};
+pub use self::comparison::{Comparison, Comparisons};
 pub use self::encoded::Encoded;
 use self::frames::json;
 use self::hand::Hand;
@@ -337,7 +338,7 @@ impl Connection {
                 return Ok(Taken::Done);
             }
             ClientMessage::Compare { tick, controllers } => {
-                self.hub.compare(tick, &controllers).await?;
+                self.server.comparisons.start(&self.hub, tick, &controllers).await?;
             }
             ClientMessage::OpenCase { case } => {
                 let case = Box::new(

@@ -74,6 +74,22 @@ pub struct MomentPath {
 
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
+pub struct JobPath {
+    /// Name of an evaluation, a recovery map, a training or a comparison.
+    #[param(example = "evaluation-1")]
+    pub id: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub struct OwnerQuery {
+    /// Name of the session that starts the job, for the list of jobs.
+    #[param(example = "main", pattern = "^[a-z0-9][a-z0-9-]{0,31}$")]
+    pub session: Option<String>,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
 pub struct EvaluationPath {
     /// Name of an evaluation.
     #[param(example = "evaluation-1")]

@@ -8,6 +8,7 @@ pub mod description;
 pub mod evaluations;
 mod flow;
 mod health;
+mod jobs;
 mod lumen;
 pub mod maps;
 mod moments;
@@ -90,6 +91,10 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(trainings::resume))
         .routes(routes!(trainings::cells))
         .routes(routes!(trainings::frame))
+        .routes(routes!(jobs::list))
+        .routes(routes!(jobs::cancel))
+        .routes(routes!(jobs::pause))
+        .routes(routes!(jobs::resume))
         .routes(routes!(challenges::list))
         .routes(routes!(challenges::report))
         .routes(routes!(challenges::ghosts))

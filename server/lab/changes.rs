@@ -4,15 +4,26 @@ use tokio::sync::watch;
 
 /// Of one list. Its owner notes each change; a receiver that is slow sees only that there were some.
 #[derive(Clone, Debug, Default)]
-pub struct Changes(watch::Sender<u64>);
+pub struct Changes {
+    own: watch::Sender<u64>,
+    /// The list that has this one in it.
+    whole: Option<watch::Sender<u64>>,
+}
 
 impl Changes {
+    /// Those of a part of another list.
+    pub fn part_of(whole: &Self) -> Self {
+        Self { own: watch::Sender::default(), whole: Some(whole.own.clone()) }
+    }
+
     pub fn note(&self) {
-        self.0.send_modify(|number| *number += 1);
+        for changes in std::iter::once(&self.own).chain(&self.whole) {
+            changes.send_modify(|number| *number += 1);
+        }
     }
 
     /// The number of changes so far.
     pub fn watch(&self) -> watch::Receiver<u64> {
-        self.0.subscribe()
+        self.own.subscribe()
     }
 }

@@ -1,5 +1,7 @@
-//! Jobs in the background: one after the other, at low priority, on threads and a graphics device of their own.
+//! Jobs in the background, in two lanes: in each one after the other, at low priority, on threads and a graphics device of
+//! its own.
 
+mod lane;
 mod life;
 mod shelf;
 #[cfg(test)]
@@ -11,22 +13,26 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
+use crate::changes::Changes;
 use ferry_camera::Gpu;
 use ferry_core::panics;
 
+pub use lane::{Lane, Paces, Ticket};
 pub use life::{Life, Stage};
 pub use shelf::{Shelf, Shelved};
-pub use workshop::{Workshop, WorkshopError, gentle_pool};
+pub use workshop::{Workshop, WorkshopError, gentle_device, gentle_pool, gentle_thread};
 
-/// Maximum number of waiting jobs.
+/// Maximum number of waiting jobs in a lane.
 const WAITING_LIMIT: usize = 4;
 
 /// Why a job is rejected.
 #[derive(Debug, thiserror::Error)]
 pub enum QueueError {
-    /// The queue is full.
-    #[error("the queue is full: {WAITING_LIMIT} jobs are waiting; cancel one or try again later")]
-    Full,
+    /// Too many wait in its lane.
+    #[error("the lane of {} jobs is full: {WAITING_LIMIT} are waiting; cancel one or try again later", lane.as_str())]
+    Full { lane: Lane },
+    #[error("{limit} jobs of this kind are paused; cancel one, or let one go on")]
+    Paused { limit: usize },
     /// The server is stopping.
     #[error("the server is stopping")]
     Closing,
@@ -34,6 +40,10 @@ pub enum QueueError {
 
 /// Work for the queue.
 pub trait Job: Send + Sync {
+    fn id(&self) -> &str;
+
+    fn lane(&self) -> Lane;
+
     /// Whether it still waits; it may have been cancelled.
     fn is_waiting(&self) -> bool;
 
@@ -50,10 +60,13 @@ pub trait Job: Send + Sync {
     fn interrupt(&self);
 }
 
-/// The queue of a server. Dropping it interrupts the running job.
+/// The queue of a server. Dropping it interrupts the running jobs.
 pub struct Queue {
-    shared: Arc<Shared>,
-    thread: Mutex<Option<JoinHandle<()>>>,
+    /// As [`Lane::ALL`].
+    lanes: [(Arc<Shared>, Mutex<Option<JoinHandle<()>>>); 2],
+    pub paces: Arc<Paces>,
+    /// Those of all jobs.
+    pub changes: Changes,
 }
 
 #[derive(Default)]
@@ -93,12 +106,11 @@ impl Shared {
         }
     }
 
-    fn serve(&self, gpu: &Gpu) {
-        workshop::lower_priority();
+    fn serve(&self, lane: Lane, gpu: &Gpu, paces: &Arc<Paces>) {
         // Made on first use: most servers never run a job.
         let mut workshop = None;
         while let Some(job) = self.next() {
-            match workshop.take().map_or_else(|| Workshop::new(gpu), Ok) {
+            match workshop.take().map_or_else(|| Workshop::new(lane, gpu, paces.clone()), Ok) {
                 Ok(made) => run(&*job, workshop.insert(made)),
                 Err(error) => job.fail(error.to_string()),
             }
@@ -114,54 +126,78 @@ fn run(job: &dyn Job, workshop: &Workshop) {
 }
 
 impl Queue {
-    /// An empty queue whose device will be like `gpu`.
+    /// An empty queue whose devices will be like `gpu`.
     ///
     /// # Errors
-    /// The thread could not start.
-    pub fn start(gpu: Arc<Gpu>) -> std::io::Result<Self> {
-        let shared = Arc::new(Shared::default());
-        let served = shared.clone();
-        let thread = std::thread::Builder::new().name("jobs".into()).spawn(move || served.serve(&gpu))?;
-        Ok(Self { shared, thread: Mutex::new(Some(thread)) })
+    /// A thread could not start.
+    pub fn start(gpu: &Arc<Gpu>) -> std::io::Result<Self> {
+        let paces = Arc::new(Paces::default());
+        let begin = |lane: Lane| {
+            let shared = Arc::new(Shared::default());
+            let (served, gpu, paces) = (shared.clone(), gpu.clone(), paces.clone());
+            let name = format!("{} jobs", lane.as_str());
+            let thread = gentle_thread(lane, name, move || served.serve(lane, &gpu, &paces))?;
+            Ok::<_, std::io::Error>((shared, Mutex::new(Some(thread))))
+        };
+        let [short, long] = Lane::ALL.map(begin);
+        Ok(Self { lanes: [short?, long?], paces, changes: Changes::default() })
     }
 
-    /// Adds a job to the end.
+    fn of(&self, lane: Lane) -> &Shared {
+        &self.lanes[lane as usize].0
+    }
+
+    /// Adds a job to the end of its lane.
     ///
     /// # Errors
     /// [`QueueError`].
     pub fn submit(&self, job: Arc<dyn Job>) -> Result<(), QueueError> {
-        let mut line = self.shared.lock();
+        let lane = job.lane();
+        let shared = self.of(lane);
+        let mut line = shared.lock();
         if line.closing {
             return Err(QueueError::Closing);
         }
-        line.waiting.retain(|job| job.is_waiting());
+        // One that was paused while it waited is still in its old place.
+        line.waiting.retain(|other| other.is_waiting() && other.id() != job.id());
         if line.waiting.len() >= WAITING_LIMIT {
-            return Err(QueueError::Full);
+            return Err(QueueError::Full { lane });
         }
         line.waiting.push_back(job);
-        self.shared.news.notify_one();
+        shared.news.notify_one();
         Ok(())
     }
 
-    /// Closes the queue and interrupts the running job, without waiting for it. No waiting job begins any more.
+    /// The ids of a lane's jobs in their order: the one that runs, then those that wait.
+    pub fn order(&self, lane: Lane) -> Vec<String> {
+        let line = self.of(lane).lock();
+        let waiting = line.waiting.iter().filter(|job| job.is_waiting());
+        line.running.iter().chain(waiting).map(|job| job.id().to_owned()).collect()
+    }
+
+    /// Closes the queue and interrupts the running jobs, without waiting for them. No waiting job begins any more.
     pub fn stop(&self) {
-        let mut line = self.shared.lock();
-        if std::mem::replace(&mut line.closing, true) {
-            return;
+        for (shared, _) in &self.lanes {
+            let mut line = shared.lock();
+            if std::mem::replace(&mut line.closing, true) {
+                continue;
+            }
+            for job in line.waiting.iter().chain(&line.running) {
+                job.interrupt();
+            }
+            shared.news.notify_all();
         }
-        for job in line.waiting.iter().chain(&line.running) {
-            job.interrupt();
-        }
-        self.shared.news.notify_all();
     }
 
     /// Closes the queue and waits until it has stopped.
     pub fn close(&self) {
         self.stop();
-        let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(thread) = thread {
-            // Panics of jobs are caught.
-            let _ = thread.join();
+        for (_, thread) in &self.lanes {
+            let thread = thread.lock().unwrap_or_else(PoisonError::into_inner).take();
+            if let Some(thread) = thread {
+                // Panics of jobs are caught.
+                let _ = thread.join();
+            }
         }
     }
 }

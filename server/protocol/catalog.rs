@@ -5,8 +5,8 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::{
-    ChallengeSummary, EvaluationSummary, PolicySummary, ProgramStanding, RecoverySummary, TrainingPoint,
-    TrainingSummary,
+    ChallengeSummary, EvaluationSummary, JobPace, JobSummary, PolicySummary, ProgramStanding, RecoverySummary,
+    TrainingPoint, TrainingSummary,
 };
 
 /// A list of the server, whole, with the items of its HTTP resource.
@@ -25,6 +25,9 @@ pub enum CatalogMessage {
     Programs(Vec<ProgramStanding>),
     /// Those of the day, those of the week, then the others that have a board.
     Challenges(Vec<ChallengeSummary>),
+    /// Of all kinds, in the order of `GET /api/jobs`.
+    Jobs(Vec<JobSummary>),
+    Paces(Vec<JobPace>),
 }
 
 /// Points of the training that this browser watches.

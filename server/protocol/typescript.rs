@@ -169,11 +169,11 @@ fn modules() -> [(&'static str, Vec<Declaration>); 19] {
             ],
         ),
         ("values", declared![ValueQuery, ValueCell, ValueMap]),
+        ("jobs", declared![JobStage, JobKind, JobLane, JobSummary, JobPace]),
         (
             "evaluations",
             declared![
                 Variation,
-                JobStage,
                 EvaluationQuery,
                 Cell,
                 PaperRow,

@@ -14,13 +14,15 @@ use super::Connection;
 use super::frames::json;
 use crate::http::Server;
 use crate::http::lists;
-use crate::protocol::{CatalogMessage, Policies, Refusal, ServerMessage, TrainingPoint, TrainingPointsMessage};
+use crate::protocol::{
+    CatalogMessage, JobPace, Policies, Refusal, ServerMessage, TrainingPoint, TrainingPointsMessage,
+};
 use ferry_core::facts::RefusalCode;
 use ferry_lab::learn::{Point, Training};
 
 /// Shortest time between two messages about the same list.
 const EVERY: Duration = Duration::from_millis(250);
-/// Interval at which the date is looked at: each day has challenges of its own.
+/// Interval at which the date is looked at: each day has challenges of its own, and jobs that have ended leave their list.
 const DATE_EVERY: Duration = Duration::from_secs(60);
 
 /// In the order in which they are sent: the policy of a training comes before the message that it is done.
@@ -33,9 +35,11 @@ enum List {
     Recoveries,
     Programs,
     Challenges,
+    Jobs,
+    Paces,
 }
 
-const ALL: [List; 7] = [
+const ALL: [List; 9] = [
     List::Maps,
     List::Policies,
     List::Trainings,
@@ -43,6 +47,8 @@ const ALL: [List; 7] = [
     List::Recoveries,
     List::Programs,
     List::Challenges,
+    List::Jobs,
+    List::Paces,
 ];
 
 /// The newest message about each list of [`ALL`]; empty before the first one.
@@ -59,6 +65,7 @@ impl List {
             Self::Recoveries => server.recoveries.changes(),
             Self::Programs => &server.programs.changes,
             Self::Challenges => server.contests.changes(),
+            Self::Jobs | Self::Paces => &server.jobs.changes,
         };
         changes.watch()
     }
@@ -72,6 +79,8 @@ impl List {
             Self::Recoveries => CatalogMessage::Recoveries(lists::recoveries(server)),
             Self::Programs => CatalogMessage::Programs(lists::programs(server)),
             Self::Challenges => CatalogMessage::Challenges(lists::challenges(server)),
+            Self::Jobs => CatalogMessage::Jobs(lists::jobs(server)),
+            Self::Paces => CatalogMessage::Paces(JobPace::all(&server.jobs.paces)),
         }))
     }
 }
@@ -107,10 +116,11 @@ pub async fn keep(server: Weak<Server>) {
             match tokio::time::timeout(DATE_EVERY, select_all(each)).await {
                 Ok((Ok(()), ..)) => break,
                 Ok((Err(_), ..)) => return,
-                Err(_) if date == lists::today() => {}
                 Err(_) => {
-                    date = lists::today();
-                    changes[List::Challenges as usize].mark_changed();
+                    changes[List::Jobs as usize].mark_changed();
+                    if std::mem::replace(&mut date, lists::today()) != date {
+                        changes[List::Challenges as usize].mark_changed();
+                    }
                     break;
                 }
             }

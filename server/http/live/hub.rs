@@ -1,6 +1,6 @@
 //! One session and its browsers. Each message is encoded once, and one browser is the operator.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
 
@@ -9,16 +9,12 @@ use jiff::Timestamp;
 use tokio::sync::{Semaphore, watch};
 use tokio::time::Instant;
 
-use super::comparison;
 use super::encoded::{self, Encoded};
-use super::frames::json;
 use super::seats::Seats;
-use crate::protocol::{Hello, PROTOCOL_VERSION, Role, ServerMessage};
-use crate::session::{CommandError, SessionHandle};
+use crate::protocol::{Hello, PROTOCOL_VERSION, Role};
+use crate::session::SessionHandle;
 use ferry_camera::Gpu;
 use ferry_core::robot::ur5::SERVO_PERIOD_S;
-use ferry_core::scenario::ControllerName;
-use ferry_core::session::Recalled;
 use ferry_ur::Twin;
 
 /// A session with its browsers.
@@ -40,8 +36,6 @@ pub struct Hub {
     closing: watch::Sender<bool>,
     /// The newest comparison, ready to send; empty before the first.
     comparison: watch::Sender<Utf8Bytes>,
-    /// Number of comparisons started; an older one stops when it is no longer the last.
-    comparisons: AtomicU64,
     /// Permit of the running comparison.
     comparing: Arc<Semaphore>,
     /// Time of the last disconnect or of the last request without a connection. Shared with the connections and the
@@ -70,7 +64,6 @@ impl Hub {
             opened: Timestamp::now(),
             gpu,
             comparison: watch::Sender::new(Utf8Bytes::default()),
-            comparisons: AtomicU64::new(0),
             comparing: Arc::new(Semaphore::new(1)),
             encoded,
             seats: watch::Sender::new(Seats::new(now)),
@@ -152,35 +145,14 @@ impl Hub {
         self.comparison.subscribe()
     }
 
-    /// Starts a comparison, which sends its own messages. No controllers are all.
-    pub async fn compare(self: &Arc<Self>, tick: u64, controllers: &[ControllerName]) -> Result<(), CommandError> {
-        let point = self.session.recall(tick, Recalled::Present).await?;
-        let mut asked = ControllerName::OFFERED.to_vec();
-        asked.extend(point.program().map(|_| ControllerName::Program));
-        asked.retain(|name| controllers.is_empty() || controllers.contains(name));
-        if !point.point.has_goal() {
-            return Err(CommandError::NoGoal { tick });
-        }
-        let number = self.comparisons.fetch_add(1, Ordering::Relaxed) + 1;
-        let trial = self.session.watch().borrow().scenery.trial;
-        let hub = self.clone();
-        tokio::spawn(async move {
-            // The previous one stops at its next tick.
-            let Ok(place) = hub.comparing.clone().acquire_owned().await else { return };
-            let comparing = tokio::task::spawn_blocking(move || {
-                let _place = place;
-                let is_last = || hub.comparisons.load(Ordering::Relaxed) == number && !*hub.closing.borrow();
-                if !is_last() {
-                    return;
-                }
-                comparison::compare(&point, trial, &asked, &hub.gpu, &is_last, &|message| {
-                    hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
-                });
-            });
-            // The function catches panics.
-            let _ = comparing.await;
-        });
-        Ok(())
+    /// Sends the newest message of a comparison.
+    pub fn send_comparison(&self, message: Utf8Bytes) {
+        self.comparison.send_replace(message);
+    }
+
+    /// Permit of the running comparison.
+    pub fn comparing(&self) -> Arc<Semaphore> {
+        self.comparing.clone()
     }
 
     pub fn seats(&self) -> watch::Receiver<Seats> {

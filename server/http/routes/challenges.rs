@@ -26,7 +26,7 @@ use ferry_core::scenario::ControllerName;
 use ferry_core::session::Ended;
 use ferry_core::trial::TrialError;
 use ferry_lab::changes::Changes;
-use ferry_lab::jobs::gentle_pool;
+use ferry_lab::jobs::{Lane, gentle_pool};
 
 /// Attempts wait for each other, and so do the controllers' runs. An attempt never waits for them.
 const RUN_WAITS: Duration = Duration::from_secs(60);
@@ -55,7 +55,7 @@ impl Contests {
         let known = match kept.iter().position(|(name, _)| *name == challenge.name) {
             Some(index) => kept.remove(index),
             None => {
-                let pool = gentle_pool("ghosts")?;
+                let pool = gentle_pool(Lane::Short, "ghosts")?;
                 let run = |controller| {
                     let mut camera = Camera::of(gpu, challenge.arena.static_scene())?;
                     Ok::<_, NoGhosts>(challenge.ghost(controller, &mut camera)?)

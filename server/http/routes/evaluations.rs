@@ -10,7 +10,7 @@ use axum::response::{IntoResponse, Response};
 use crate::http::Server;
 use crate::http::body::{WholeBody, attachment, parse};
 use crate::http::lists;
-use crate::http::path::{EvaluationPath, Path, ReportPath};
+use crate::http::path::{EvaluationPath, OwnerQuery, Path, Query, ReportPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::protocol::{EvaluationReport, EvaluationSummary, Evaluations};
@@ -26,14 +26,19 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
 
 /// Starts an evaluation or queues it.
 #[utoipa::path(post, path = "/api/evaluations", tag = "evaluations", operation_id = "create_evaluation",
-    request_body = EvaluationQuery,
+    params(OwnerQuery), request_body = EvaluationQuery,
     responses((status = 201, body = EvaluationSummary, headers(("Location" = String, description = "Its path."))),
         OutOfRange, TooMany, Unavailable))]
-pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
+pub async fn create(
+    State(server): State<Arc<Server>>,
+    Query(owner): Query<OwnerQuery>,
+    WholeBody(body): WholeBody,
+) -> Result<Response, Problem> {
+    let owner = owner.owner()?;
     let query: EvaluationQuery = parse(&body)?;
     let program = query.program.as_deref().and_then(|name| server.programs.find(name));
     // Reading the maps blocks.
-    let submit = move |server: &Arc<Server>| server.evaluations.submit(query, &server.catalog, program);
+    let submit = move |server: &Arc<Server>| server.evaluations.submit(owner, query, &server.catalog, program);
     let evaluation = server.work(submit).await??;
     let location = format!("/api/evaluations/{}", evaluation.id);
     let summary = Json(EvaluationSummary::from(&*evaluation));
@@ -133,7 +138,9 @@ impl From<QueueError> for Problem {
     fn from(error: QueueError) -> Self {
         let detail = error.to_string();
         match error {
-            QueueError::Full => Self::new(StatusCode::TOO_MANY_REQUESTS, "too_many_jobs", detail),
+            QueueError::Full { .. } | QueueError::Paused { .. } => {
+                Self::new(StatusCode::TOO_MANY_REQUESTS, "too_many_jobs", detail)
+            }
             QueueError::Closing => Self::new(StatusCode::SERVICE_UNAVAILABLE, "stopping", detail),
         }
     }

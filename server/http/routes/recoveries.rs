@@ -37,7 +37,8 @@ pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBod
     let query: RecoveryQuery = parse(&body)?;
     let (session, start) = start(&server, &query).await?;
     // Making the grid blocks.
-    let job = server.work(move |server| server.recoveries.submit(session, query.into(), start)).await??;
+    let owner = query.session.clone();
+    let job = server.work(move |server| server.recoveries.submit(owner, session, query.into(), start)).await??;
     let location = format!("/api/recoveries/{}", job.id);
     Ok((StatusCode::ACCEPTED, [(header::LOCATION, location)], Json(RecoverySummary::from(&*job))).into_response())
 }

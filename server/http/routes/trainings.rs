@@ -10,7 +10,7 @@ use axum::response::{IntoResponse, Response};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::lists;
-use crate::http::path::{FramePath, Path, TrainingPath};
+use crate::http::path::{FramePath, OwnerQuery, Path, Query, TrainingPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::protocol::{TrainingCells, TrainingFrame, TrainingReport, TrainingSummary, Trainings};
@@ -25,12 +25,17 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<Trainings> {
 
 /// Starts a training or queues it.
 #[utoipa::path(post, path = "/api/trainings", tag = "trainings", operation_id = "create_training",
-    request_body = TrainingQuery,
+    params(OwnerQuery), request_body = TrainingQuery,
     responses((status = 201, body = TrainingSummary, headers(("Location" = String, description = "Its path."))),
         Conflict, OutOfRange, TooMany, Unavailable))]
-pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
+pub async fn create(
+    State(server): State<Arc<Server>>,
+    Query(owner): Query<OwnerQuery>,
+    WholeBody(body): WholeBody,
+) -> Result<Response, Problem> {
+    let owner = owner.owner()?;
     let query: TrainingQuery = parse(&body)?;
-    let training = server.work(move |server| server.trainings.submit(query)).await??;
+    let training = server.work(move |server| server.trainings.submit(owner, query)).await??;
     let location = format!("/api/trainings/{}", training.id);
     let summary = Json(TrainingSummary::from(&*training));
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], summary).into_response())

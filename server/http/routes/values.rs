@@ -21,7 +21,7 @@ use ferry_core::geometry::Point2;
 use ferry_core::perception::Area;
 use ferry_core::policy::{Judgement, Lattice, Policy, PolicyError, Survey};
 use ferry_core::trial::{Arena, Sight};
-use ferry_lab::jobs::gentle_pool;
+use ferry_lab::jobs::{Lane, gentle_pool};
 use ferry_lab::learn::{Atlas, AtlasError};
 
 /// Requests for value maps run one at a time.
@@ -51,7 +51,7 @@ impl Atlases {
             Some(index) => kept.remove(index),
             None => {
                 // Live sessions continue meanwhile.
-                let pool = gentle_pool("values")?;
+                let pool = gentle_pool(Lane::Short, "values")?;
                 let atlas = pool.install(|| Atlas::of(arena, policy.clone(), gpu, &self.folder))?;
                 (arena.map.svg().to_owned(), Arc::new(atlas))
             }

@@ -1,11 +1,11 @@
 //! One evaluation: its query, progress and results.
 
-use std::sync::Arc;
-use std::time::Instant;
+use std::sync::{Arc, Mutex, PoisonError};
 
+use super::evaluations::work_of;
 use super::variation::applied;
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
-use crate::jobs::Life;
+use crate::jobs::{Life, Paces, Ticket};
 use crate::program::Program;
 use ferry_core::map::Map;
 use ferry_core::policy::Policies;
@@ -22,7 +22,10 @@ pub struct Evaluation {
     pub(super) policies: Arc<dyn Policies>,
     /// The program of the query.
     program: Option<Arc<Program>>,
+    pub ticket: Ticket,
     pub life: Life<Progress>,
+    /// The trials of the present cell that have ended, in any order.
+    pub(super) ended: Mutex<Vec<Episode>>,
 }
 
 /// What an evaluation has found so far.
@@ -41,7 +44,7 @@ pub struct CellProgress {
     pub done: u32,
     /// Number of these that delivered.
     pub delivered: u32,
-    /// Time until the last trial ended.
+    /// Time until the last trial ended, without pauses.
     pub elapsed_s: f64,
 }
 
@@ -78,9 +81,11 @@ impl Evaluation {
         maps: Vec<Map>,
         policies: Arc<dyn Policies>,
         program: Option<Arc<Program>>,
+        ticket: Ticket,
     ) -> Arc<Self> {
         let progress = Progress { cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };
-        Arc::new(Self { id, query, cells, maps, policies, program, life: Life::new(progress) })
+        let (life, ended) = (Life::new(progress), Mutex::default());
+        Arc::new(Self { id, query, cells, maps, policies, program, ticket, life, ended })
     }
 
     /// The venue of a cell's trials.
@@ -88,13 +93,35 @@ impl Evaluation {
         self.maps.iter().find(|map| map.name() == cell.map)
     }
 
-    pub(super) fn note(&self, cell: usize, began: Instant, episode: &Episode) {
+    /// A trial has ended, so many seconds after the cell began, without pauses.
+    pub(super) fn note(&self, cell: usize, elapsed_s: f64, episode: &Episode) {
+        self.ended.lock().unwrap_or_else(PoisonError::into_inner).push(episode.clone());
         self.life.update(|progress| {
             let cell = &mut progress.cells[cell];
             cell.done += 1;
             cell.delivered += u32::from(episode.delivered);
-            cell.elapsed_s = began.elapsed().as_secs_f64();
+            cell.elapsed_s = elapsed_s;
         });
+    }
+
+    /// Number of trials that have ended, and of all.
+    pub fn trials(&self) -> [u32; 2] {
+        let done = self.life.read(|_, progress| progress.cells.iter().map(|cell| cell.done).sum());
+        [done, self.query.episodes * self.cells.len() as u32]
+    }
+
+    /// Estimated time that it still runs: cells as quick as they were so far, others as all are on this machine.
+    pub fn left_s(&self, paces: &Paces) -> f64 {
+        self.life.read(|_, progress| {
+            let left_s = |(cell, at): (&Cell, &CellProgress)| {
+                let each_s = match at.done {
+                    0 => paces.each_s(&work_of(cell.controller)),
+                    done => at.elapsed_s / f64::from(done),
+                };
+                f64::from(self.query.episodes - at.done) * each_s
+            };
+            self.cells.iter().zip(&progress.cells).map(left_s).sum()
+        })
     }
 
     /// The experiment of a cell.

@@ -2,11 +2,22 @@
 
 use std::sync::Arc;
 
-use super::{Evaluation, EvaluationQuery, QueryError};
+use super::{Cell, Evaluation, EvaluationQuery, QueryError};
 use crate::changes::Changes;
-use crate::jobs::{Queue, QueueError, Shelf};
+use crate::jobs::{Lane, Queue, QueueError, Shelf, Ticket};
 use crate::program::Program;
+use ferry_core::scenario::ControllerName;
 use ferry_core::trial::Catalog;
+
+/// An evaluation with at most so many trials is short, also on a slow machine.
+const SHORT_TRIALS: u32 = 30;
+/// First guess of the time of a trial: with a software graphics driver on two cores.
+const GUESS_S: f64 = 1.0;
+
+/// The kind of work of a controller's trials, for their pace.
+pub(super) fn work_of(controller: ControllerName) -> String {
+    format!("evaluation_{}", controller.as_str())
+}
 
 /// Why an evaluation is rejected.
 #[derive(Debug, thiserror::Error)]
@@ -24,15 +35,20 @@ pub struct Evaluations(Shelf<Evaluation>);
 impl Evaluations {
     /// Evaluations that run in a queue.
     pub fn new(queue: Arc<Queue>) -> Self {
+        for controller in ControllerName::ALL {
+            queue.paces.guess(&work_of(controller), GUESS_S);
+        }
         Self(Shelf::new(queue, "evaluation"))
     }
 
-    /// Adds an evaluation on maps and with a policy of a catalog, and with the program that has the query's name.
+    /// Adds an evaluation on maps and with a policy of a catalog, and with the program that has the query's name. `owner` is
+    /// the session that starts it.
     ///
     /// # Errors
     /// [`SubmitError`].
     pub fn submit(
         &self,
+        owner: Option<String>,
         mut query: EvaluationQuery,
         catalog: &Catalog,
         program: Option<Arc<Program>>,
@@ -43,8 +59,30 @@ impl Evaluations {
         }
         let maps = query.maps(&catalog.maps)?;
         query.rl_policy = catalog.policies.resolve(&query.rl_policy).map_err(QueryError::from)?;
-        let make = |id| Evaluation::new(id, query, cells, maps, catalog.policies.clone(), program);
+        let episodes = query.episodes;
+        let each_s = |cell: &Cell| self.0.paces().each_s(&work_of(cell.controller));
+        let estimate_s = f64::from(episodes) * cells.iter().map(each_s).sum::<f64>();
+        let is_short = episodes.saturating_mul(cells.len() as u32) <= SHORT_TRIALS;
+        let lane = if is_short { Lane::Short } else { Lane::of(estimate_s) };
+        let ticket = Ticket { owner, lane, estimate_s };
+        let make = |id| Evaluation::new(id, query, cells, maps, catalog.policies.clone(), program, ticket);
         Ok(self.0.submit(make)?)
+    }
+
+    /// Pauses an evaluation; the trials that run begin again when it goes on. Returns false if it neither waits nor runs.
+    ///
+    /// # Errors
+    /// [`QueueError`].
+    pub fn pause(&self, evaluation: &Evaluation) -> Result<bool, QueueError> {
+        self.0.pause(evaluation)
+    }
+
+    /// Lets a paused one wait again. Returns false if it is not paused.
+    ///
+    /// # Errors
+    /// [`QueueError`].
+    pub fn resume(&self, evaluation: &Arc<Evaluation>) -> Result<bool, QueueError> {
+        self.0.resume(evaluation)
     }
 
     pub fn find(&self, id: &str) -> Option<Arc<Evaluation>> {

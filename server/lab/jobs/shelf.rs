@@ -3,11 +3,13 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::{Job, Life, Queue, QueueError, Stage, Workshop};
+use super::{Job, Lane, Life, Paces, Queue, QueueError, Stage, Ticket, Workshop};
 use crate::changes::Changes;
 
 /// Number of ended jobs that are kept.
 const KEPT: usize = 16;
+/// Maximum number of paused jobs.
+const PAUSED_LIMIT: usize = 16;
 
 /// A job that is found by its id.
 pub trait Shelved: Send + Sync + 'static {
@@ -17,11 +19,21 @@ pub trait Shelved: Send + Sync + 'static {
 
     fn life(&self) -> &Life<Self::Found>;
 
+    fn ticket(&self) -> &Ticket;
+
     /// Runs until it has ended or was cancelled, and returns the stage in which it ends.
     fn work(&self, workshop: &Workshop) -> Stage;
 }
 
 impl<J: Shelved> Job for J {
+    fn id(&self) -> &str {
+        Shelved::id(self)
+    }
+
+    fn lane(&self) -> Lane {
+        self.ticket().lane
+    }
+
     fn is_waiting(&self) -> bool {
         self.life().stage() == Stage::Waiting
     }
@@ -31,9 +43,10 @@ impl<J: Shelved> Job for J {
     }
 
     fn run(&self, workshop: &Workshop) {
-        tracing::info!(id = self.id(), "job begins");
+        let id = Shelved::id(self);
+        tracing::info!(id, "job begins");
         let stage = self.work(workshop);
-        tracing::info!(id = self.id(), ?stage, "job ends");
+        tracing::info!(id, ?stage, "job ends");
         self.life().end(stage);
     }
 
@@ -78,7 +91,8 @@ impl<J: Shelved> Shelf<J> {
     /// Jobs that run in a queue; their ids are the name with a number.
     pub fn new(queue: Arc<Queue>, name: &'static str) -> Self {
         let kept = Mutex::new(Kept { jobs: VecDeque::new(), made: 0 });
-        Self { queue, name, kept, changes: Changes::default() }
+        let changes = Changes::part_of(&queue.changes);
+        Self { queue, name, kept, changes }
     }
 
     /// Makes a job for its id, and queues it.
@@ -99,7 +113,7 @@ impl<J: Shelved> Shelf<J> {
     }
 
     pub fn find(&self, id: &str) -> Option<Arc<J>> {
-        self.lock().jobs.iter().find(|job| job.id() == id).cloned()
+        self.lock().jobs.iter().find(|job| Shelved::id(&***job) == id).cloned()
     }
 
     /// All kept jobs, in the order of submission.
@@ -107,6 +121,38 @@ impl<J: Shelved> Shelf<J> {
         let mut kept = self.lock();
         kept.prune();
         kept.jobs.iter().cloned().collect()
+    }
+
+    /// Pauses a job. Returns false if it neither waits nor runs.
+    ///
+    /// # Errors
+    /// [`QueueError::Paused`].
+    pub fn pause(&self, job: &J) -> Result<bool, QueueError> {
+        let paused = self.lock().jobs.iter().filter(|job| job.life().stage() == Stage::Paused).count();
+        if paused >= PAUSED_LIMIT {
+            return Err(QueueError::Paused { limit: PAUSED_LIMIT });
+        }
+        Ok(job.life().pause())
+    }
+
+    /// Lets a paused job wait in its lane again. Returns false if it is not paused.
+    ///
+    /// # Errors
+    /// [`QueueError`]; then it stays paused.
+    pub fn resume(&self, job: &Arc<J>) -> Result<bool, QueueError> {
+        if !job.life().resume() {
+            return Ok(false);
+        }
+        if let Err(error) = self.queue.submit(job.clone()) {
+            job.life().pause();
+            return Err(error);
+        }
+        Ok(true)
+    }
+
+    /// Those of the queue.
+    pub fn paces(&self) -> &Paces {
+        &self.queue.paces
     }
 
     pub fn changes(&self) -> &Changes {

@@ -1,11 +1,13 @@
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::*;
 use ferry_camera::AdapterChoice;
 
 /// A job that does its work once and reports.
 struct Errand {
+    id: String,
+    lane: Lane,
     waits: AtomicBool,
     work: Box<dyn Fn(&Workshop) -> String + Send + Sync>,
     report: Mutex<Sender<String>>,
@@ -19,6 +21,14 @@ impl Errand {
 }
 
 impl Job for Errand {
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn lane(&self) -> Lane {
+        self.lane
+    }
+
     fn is_waiting(&self) -> bool {
         self.waits.load(Ordering::SeqCst)
     }
@@ -41,71 +51,144 @@ impl Job for Errand {
 }
 
 fn queue() -> Queue {
-    Queue::start(Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter")).unwrap()
+    Queue::start(&Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter")).unwrap()
 }
 
+/// A job of the long lane.
 fn errand(report: &Sender<String>, work: impl Fn(&Workshop) -> String + Send + Sync + 'static) -> Arc<Errand> {
-    Arc::new(Errand { waits: AtomicBool::new(true), work: Box::new(work), report: Mutex::new(report.clone()) })
+    errand_in(Lane::Long, "one", report, work)
+}
+
+fn errand_in(
+    lane: Lane,
+    id: &str,
+    report: &Sender<String>,
+    work: impl Fn(&Workshop) -> String + Send + Sync + 'static,
+) -> Arc<Errand> {
+    let (waits, report) = (AtomicBool::new(true), Mutex::new(report.clone()));
+    Arc::new(Errand { id: id.to_owned(), lane, waits, work: Box::new(work), report })
+}
+
+/// A job that reports that it has begun, and ends when it is released.
+fn held(lane: Lane, report: &Sender<String>) -> (Arc<Errand>, Receiver<()>, Sender<()>) {
+    let ((begun, begins), (release, released)) = (channel(), channel());
+    let gate = Mutex::new((begun, released));
+    let job = errand_in(lane, "held", report, move |_| {
+        let gate = gate.lock().unwrap();
+        gate.0.send(()).unwrap();
+        gate.1.recv().unwrap();
+        "held".into()
+    });
+    (job, begins, release)
 }
 
 #[test]
 fn jobs_run_in_order_and_a_panic_ends_only_its_own() {
     let queue = queue();
     let (report, reports) = channel();
-    let (open, gate) = channel::<()>();
-    let gate = Mutex::new(gate);
-    let first = errand(&report, move |_| {
-        gate.lock().unwrap().recv().unwrap();
-        "first".into()
-    });
+    let (first, begins, release) = held(Lane::Long, &report);
     queue.submit(first).unwrap();
-    let cancelled = errand(&report, |_| "cancelled".into());
+    begins.recv().unwrap();
+    let cancelled = errand_in(Lane::Long, "two", &report, |_| "cancelled".into());
     let rest = [
         errand(&report, |workshop: &Workshop| workshop.pool.install(|| panic!("seven wings"))),
         cancelled.clone(),
-        errand(&report, |_| "last".into()),
+        errand_in(Lane::Long, "three", &report, |_| "last".into()),
     ];
     for job in rest {
         queue.submit(job).unwrap();
     }
     cancelled.waits.store(false, Ordering::SeqCst);
-    open.send(()).unwrap();
+    release.send(()).unwrap();
     let told: Vec<String> = reports.iter().take(3).collect();
-    assert_eq!(told, ["first", "the job panicked: seven wings", "last"]);
+    assert_eq!(told, ["held", "the job panicked: seven wings", "last"]);
 }
 
 #[test]
-fn a_full_queue_refuses_and_a_closing_one_interrupts() {
+fn a_short_job_runs_beside_a_long_one_and_before_those_that_wait() {
     let queue = queue();
     let (report, reports) = channel();
-    let (begun, begins) = channel::<()>();
-    let (open, gate) = channel::<()>();
-    let gate = Mutex::new((begun, gate));
-    let running = errand(&report, move |_| {
-        let gate = gate.lock().unwrap();
-        gate.0.send(()).unwrap();
-        gate.1.recv().unwrap();
-        "ran".into()
-    });
+    let (first, begins, release) = held(Lane::Long, &report);
+    queue.submit(first).unwrap();
+    begins.recv().unwrap();
+    queue.submit(errand_in(Lane::Long, "waits", &report, |_| "waits".into())).unwrap();
+    queue.submit(errand_in(Lane::Short, "short", &report, |_| "short".into())).unwrap();
+    assert_eq!(reports.recv().unwrap(), "short");
+    assert_eq!(queue.order(Lane::Long), ["held", "waits"]);
+    release.send(()).unwrap();
+    assert_eq!(reports.iter().take(2).collect::<Vec<_>>(), ["held", "waits"]);
+}
+
+#[test]
+fn a_full_lane_refuses_beside_an_empty_one_and_a_closing_queue_interrupts() {
+    let queue = queue();
+    let (report, reports) = channel();
+    let (running, begins, release) = held(Lane::Long, &report);
     queue.submit(running).unwrap();
     begins.recv().unwrap();
-    for _ in 0..WAITING_LIMIT {
-        queue.submit(errand(&report, |_| "never".into())).unwrap();
+    for number in 0..WAITING_LIMIT {
+        queue.submit(errand_in(Lane::Long, &format!("job-{number}"), &report, |_| "never".into())).unwrap();
     }
     let more = errand(&report, |_| "never".into());
-    assert!(matches!(queue.submit(more.clone()), Err(QueueError::Full)));
+    let refused = queue.submit(more.clone()).unwrap_err().to_string();
+    assert!(refused.contains("lane of long jobs is full: 4"), "{refused}");
+    queue.submit(errand_in(Lane::Short, "short", &report, |_| "short".into())).unwrap();
+    assert_eq!(reports.recv().unwrap(), "short");
     queue.stop();
-    open.send(()).unwrap();
+    release.send(()).unwrap();
     queue.close();
     assert!(matches!(queue.submit(more), Err(QueueError::Closing)));
-    let told: Vec<String> = reports.try_iter().collect();
-    assert_eq!(told.len(), WAITING_LIMIT + 2, "{told:?}");
-    assert!(!told.contains(&"never".into()) && told.contains(&"ran".into()), "{told:?}");
+    let told: Vec<String> = reports.try_iter().filter(|told| told != "held").collect();
+    // A short job that has ended may still count as the running one.
+    assert!((WAITING_LIMIT + 1..=WAITING_LIMIT + 2).contains(&told.len()), "{told:?}");
+    assert!(told.iter().all(|told| told == "interrupted"), "{told:?}");
+}
+
+#[test]
+fn a_job_that_was_paused_while_it_waited_comes_once_and_last() {
+    let queue = queue();
+    let (report, reports) = channel();
+    let (first, begins, release) = held(Lane::Short, &report);
+    queue.submit(first).unwrap();
+    begins.recv().unwrap();
+    let [paused, other] = ["paused", "other"].map(|id| errand_in(Lane::Short, id, &report, move |_| id.into()));
+    queue.submit(paused.clone()).unwrap();
+    queue.submit(other).unwrap();
+    paused.waits.store(false, Ordering::SeqCst);
+    paused.waits.store(true, Ordering::SeqCst);
+    queue.submit(paused).unwrap();
+    assert_eq!(queue.order(Lane::Short).len(), 3);
+    release.send(()).unwrap();
+    assert_eq!(reports.iter().take(3).collect::<Vec<_>>(), ["held", "other", "paused"]);
+    queue.close();
+    assert!(reports.try_recv().is_err());
+}
+
+#[test]
+fn a_job_pauses_goes_on_and_is_cancelled() {
+    let life = Life::new(());
+    assert!(life.pause() && !life.begin() && life.stage() == Stage::Paused, "while it waits");
+    assert!(life.resume() && !life.resume() && life.begin());
+    assert!(life.pause() && life.pause() && life.stop().load(Ordering::SeqCst), "while it runs");
+    life.end(Stage::Cancelled);
+    assert_eq!((life.stage(), life.ended()), (Stage::Paused, None));
+    assert!(life.resume() && life.begin() && !life.stop().load(Ordering::SeqCst));
+    assert!(life.pause() && life.cancel() && !life.pause(), "a cancellation is stronger");
+    life.end(Stage::Cancelled);
+    assert!(life.stage() == Stage::Cancelled && life.ended().is_some() && life.spent_s() > 0.0);
+    assert!(!life.cancel() && !life.resume() && !life.pause());
+    let done = Life::new(());
+    assert!(done.begin() && done.pause());
+    done.end(Stage::Done);
+    assert_eq!(done.stage(), Stage::Done, "it ended before it could stop");
+    let paused = Life::new(());
+    assert!(paused.pause() && paused.cancel());
+    assert!(paused.stage() == Stage::Cancelled && paused.ended().is_some());
 }
 
 #[cfg(target_os = "linux")]
 #[test]
-fn its_threads_have_low_priority() {
+fn its_threads_have_low_priority_and_long_jobs_the_lowest() {
     let niceness = || {
         let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap();
         // The name, in brackets, may contain anything; nice is the 17th field after it.
@@ -113,6 +196,9 @@ fn its_threads_have_low_priority() {
     };
     let (report, reports) = channel();
     let queue = queue();
-    queue.submit(errand(&report, move |workshop: &Workshop| workshop.pool.install(niceness))).unwrap();
-    assert_eq!(reports.recv().unwrap(), "10");
+    for (lane, expected) in [(Lane::Short, "10"), (Lane::Long, "19")] {
+        let work = move |workshop: &Workshop| [niceness(), workshop.pool.install(niceness)].join(" ");
+        queue.submit(errand_in(lane, "one", &report, work)).unwrap();
+        assert_eq!(reports.recv().unwrap(), [expected, expected].join(" "));
+    }
 }

@@ -2,10 +2,12 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::thread::JoinHandle;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
+use super::{Lane, Paces};
 use ferry_camera::Gpu;
 use ferry_core::image::CameraError;
 use ferry_core::panics;
@@ -19,19 +21,17 @@ pub enum WorkshopError {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-/// The threads and the graphics device of jobs.
+/// The threads and the graphics device of a lane's jobs.
 pub struct Workshop {
     pub pool: ThreadPool,
     pub gpu: Arc<Gpu>,
+    /// Of the queue.
+    pub paces: Arc<Paces>,
 }
 
-/// Priority, 0 to 99; on Linux it becomes a niceness of 10, the default of the command `nice`. With the lowest
-/// priority a job would make no progress while anything else runs.
-const PRIORITY: u8 = 22;
-
 /// Lowers the priority of this thread and of the threads that it starts.
-pub(super) fn lower_priority() {
-    let lowered = ThreadPriorityValue::try_from(PRIORITY).and_then(|value| {
+fn lower_priority(lane: Lane) {
+    let lowered = ThreadPriorityValue::try_from(lane.priority()).and_then(|value| {
         set_current_thread_priority(ThreadPriority::Crossplatform(value)).map_err(|error| error.to_string())
     });
     if let Err(error) = lowered {
@@ -39,32 +39,52 @@ pub(super) fn lower_priority() {
     }
 }
 
+/// A thread with the low priority of a lane.
+///
+/// # Errors
+/// It could not start.
+pub fn gentle_thread<T: Send + 'static>(
+    lane: Lane,
+    name: String,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> std::io::Result<JoinHandle<T>> {
+    std::thread::Builder::new().name(name).spawn(move || {
+        lower_priority(lane);
+        work()
+    })
+}
+
 /// A pool with all cores, at low priority: a live session takes a core from it at once.
 ///
 /// # Errors
 /// The threads could not start.
-pub fn gentle_pool(name: &'static str) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
+pub fn gentle_pool(lane: Lane, name: &'static str) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     ThreadPoolBuilder::new()
         .num_threads(cores)
         .thread_name(move |index| format!("{name} {index}"))
-        .start_handler(|_| lower_priority())
+        .start_handler(move |_| lower_priority(lane))
         .build()
 }
 
+/// A device like `gpu`. Call it on a thread with low priority: a software graphics driver starts its threads here, and they
+/// inherit the priority.
+///
+/// # Errors
+/// [`CameraError`], also after a panic in the driver, which must not end what waits.
+pub fn gentle_device(gpu: &Gpu) -> Result<Arc<Gpu>, CameraError> {
+    catch_unwind(AssertUnwindSafe(|| gpu.another())).unwrap_or_else(|panic| {
+        let (adapter, reason) = (gpu.adapter_name().to_owned(), panics::message(&*panic));
+        Err(CameraError::DeviceRefused { adapter, reason })
+    })
+}
+
 impl Workshop {
-    /// A pool with all cores, and a device like `gpu`. Call it on a thread with low priority: a software
-    /// graphics driver starts its threads here, and they inherit the priority.
+    /// A pool with all cores, and a device like `gpu`. Call it on a thread with the priority of the lane.
     ///
     /// # Errors
     /// [`WorkshopError`].
-    pub fn new(gpu: &Gpu) -> Result<Self, WorkshopError> {
-        // A panic in the driver ends one job, not the waiting ones.
-        let another = catch_unwind(AssertUnwindSafe(|| gpu.another()));
-        let gpu = another.unwrap_or_else(|panic| {
-            let (adapter, reason) = (gpu.adapter_name().to_owned(), panics::message(&*panic));
-            Err(CameraError::DeviceRefused { adapter, reason })
-        })?;
-        Ok(Self { pool: gentle_pool("job")?, gpu })
+    pub fn new(lane: Lane, gpu: &Gpu, paces: Arc<Paces>) -> Result<Self, WorkshopError> {
+        Ok(Self { pool: gentle_pool(lane, "job")?, gpu: gentle_device(gpu)?, paces })
     }
 }

@@ -13,9 +13,10 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::library::Library;
+use super::recipe::RecipeName;
 use super::sweep::{STEP_M, cells};
 use crate::changes::Changes;
-use crate::jobs::{Queue, QueueError};
+use crate::jobs::{Lane, Queue, QueueError, Ticket};
 use ferry_core::map::{self, Map, READER};
 use ferry_core::policy::Policy;
 use ferry_core::trial::Arena;
@@ -30,6 +31,15 @@ pub use training::{Origin, Status, Training};
 const KEPT: usize = 16;
 /// Name of a training, before its number.
 const NUMBERED: &str = "training-";
+
+/// First guess of the time of an update, on two cores.
+const GUESS_S: f64 = 0.04;
+
+/// The kind of work of a recipe's updates, for their pace.
+fn work_of(recipe: RecipeName) -> String {
+    let name = serde_json::to_value(recipe).ok();
+    format!("training_{}", name.as_ref().and_then(|name| name.as_str()).unwrap_or_default())
+}
 
 /// Why a training is rejected.
 #[derive(Debug, thiserror::Error)]
@@ -79,8 +89,11 @@ impl Trainings {
             .collect();
         numbers.sort_unstable();
         let last = numbers.last().copied().unwrap_or(0);
-        let trainings =
-            Self { folder, sweeps, queue, maps, policies, kept: Mutex::default(), changes: Changes::default() };
+        for (recipe, ..) in RecipeName::ALL {
+            queue.paces.guess(&work_of(recipe), GUESS_S);
+        }
+        let changes = Changes::part_of(&queue.changes);
+        let trainings = Self { folder, sweeps, queue, maps, policies, kept: Mutex::default(), changes };
         let restored: Vec<_> = numbers.into_iter().filter_map(|number| trainings.restore(number)).collect();
         for training in &restored {
             let stage = training.status().stage;
@@ -115,14 +128,16 @@ impl Trainings {
 
     fn training(&self, id: String, record: Record, map: Map, history: (Option<Cells>, Vec<Frame>)) -> Arc<Training> {
         let folders = [self.folder.join(&id), self.sweeps.clone()];
-        Training::new(id, record, map, folders, self.policies.clone(), history, self.changes.clone())
+        let estimate_s = record.updates_total as f64 * self.queue.paces.each_s(&work_of(record.query.recipe));
+        let ticket = Ticket { owner: record.owner.clone(), lane: Lane::Long, estimate_s };
+        Training::new(id, record, map, ticket, folders, self.policies.clone(), history, self.changes.clone())
     }
 
-    /// Adds a training.
+    /// Adds a training. `owner` is the session that starts it.
     ///
     /// # Errors
     /// [`SubmitTrainingError`]; then nothing has changed.
-    pub fn submit(&self, query: TrainingQuery) -> Result<Arc<Training>, SubmitTrainingError> {
+    pub fn submit(&self, owner: Option<String>, query: TrainingQuery) -> Result<Arc<Training>, SubmitTrainingError> {
         let map = self.maps.find(&query.map).map_err(QueryError::from)?;
         let (columns, rows) = cells(&Arena::of(map.clone()), STEP_M);
         query.check_map(&map, columns * rows)?;
@@ -136,6 +151,7 @@ impl Trainings {
         }
         let record = Record {
             query,
+            owner,
             updates_total: recipe.updates,
             stage: TrainingStage::Waiting,
             elapsed_s: 0.0,

@@ -1,5 +1,6 @@
 //! Runs the trials of a recovery map on all threads of the current pool.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -97,7 +98,7 @@ impl Recovery {
         (0..self.query.controllers.len()).map(|index| self.controller(index)).collect()
     }
 
-    /// Tries everything, or what belongs to a shard; `progress` is called after each trial. A shard of a map of places
+    /// Tries everything that `life` has not found yet, or what belongs to a shard; `progress` is called after each trial. A shard of a map of places
     /// needs the whole finest grid: which coarse cells are divided depends on all trials.
     ///
     /// # Errors
@@ -110,7 +111,12 @@ impl Recovery {
         recorders: Recorders<'_>,
         progress: &(dyn Fn(&Findings) + Sync),
     ) -> Result<(), EvaluateError> {
-        let run = Run { recovery: self, shard, gpu, life, recorders, progress };
+        // The cells are planned again; a paused map goes on with what it has.
+        let mut before = HashMap::new();
+        life.update(|findings| {
+            before.extend(std::mem::take(findings).cells.into_iter().map(|cell| (cell.number, cell.tries)));
+        });
+        let run = Run { recovery: self, shard, gpu, life, recorders, progress, before };
         match self.query.kind {
             Kind::Place => {
                 life.update(|findings| findings.room_m2 = Some(self.venue.room_m2()));
@@ -203,6 +209,8 @@ struct Run<'a> {
     life: &'a Life<Findings>,
     recorders: Recorders<'a>,
     progress: &'a (dyn Fn(&Findings) + Sync),
+    /// The trials that had ended before a pause, by the number of their cell.
+    before: HashMap<u64, Vec<Vec<Option<Tried>>>>,
 }
 
 impl Run<'_> {
@@ -247,7 +255,13 @@ impl Run<'_> {
         let count = new.len();
         self.life.update(|findings| {
             first = findings.cells.len();
-            findings.cells.extend(new.into_iter().map(|(spot, number)| Cell::new(spot, number, controllers, repeats)));
+            findings.cells.extend(new.into_iter().map(|(spot, number)| {
+                let mut cell = Cell::new(spot, number, controllers, repeats);
+                if let Some(tries) = self.before.get(&number) {
+                    cell.tries.clone_from(tries);
+                }
+                cell
+            }));
         });
         let mut spread: Vec<usize> = (0..count).collect();
         spread.sort_by_key(|&index| (index as u32).reverse_bits());
@@ -259,9 +273,14 @@ impl Run<'_> {
             Some(shard) => shard.among(turns).collect(),
             None => turns.collect(),
         };
-        self.life.update(|findings| findings.planned += turns.len());
+        let mut left = turns.clone();
+        self.life.update(|findings| {
+            left.retain(|&(cell, controller, repeat)| findings.cells[cell].tries[controller][repeat].is_none());
+            findings.planned += turns.len();
+            findings.done += turns.len() - left.len();
+        });
         // In this order, on any number of threads.
-        turns.into_iter().par_bridge().try_for_each(|turn| self.turn(turn))
+        left.into_iter().par_bridge().try_for_each(|turn| self.turn(turn))
     }
 
     fn turn(&self, (index, controller, repeat): Turn) -> Result<(), EvaluateError> {

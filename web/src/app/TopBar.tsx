@@ -3,6 +3,7 @@
 import { Show, type JSX } from 'solid-js';
 import { Box, ChevronDown, Layers, Map as MapIcon, PanelRightClose, PanelRightOpen } from 'lucide';
 import { challengeTitle } from '../features/challenge/words';
+import { JobsButton } from '../features/jobs/JobsButton';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import { VIEWS } from '../lab/address';
 import type { Lab } from '../lab/slices';
@@ -123,6 +124,7 @@ export function TopBar(props: {
           </button>
           {props.share}
         </Show>
+        <JobsButton lab={lab} />
         <MoreMenu lab={lab} />
         <Show when={isLaboratory()}>
           <button

@@ -38,6 +38,8 @@ export function createCatalog(
       recoveries: list('recoveries'),
       programs: list('programs'),
       challenges: list('challenges'),
+      jobs: list('jobs'),
+      paces: list('paces'),
       addedPolicies: createMemo(() =>
         (lists().policies ?? []).filter((one) => !one.is_shipped).map((one) => one.reference),
       ),

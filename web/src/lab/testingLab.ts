@@ -69,6 +69,8 @@ export class FakeServer {
     recoveries: [],
     programs: [],
     challenges: [],
+    jobs: [],
+    paces: [],
   };
   private socket: FakeSocket | undefined;
 

@@ -1,9 +1,11 @@
 // What a training does and when it ends, as words. Pure.
 
-import { counted, fixed, roughly } from '../ui/format';
+import { counted, fixed } from '../ui/format';
+import { leftWords, waitWords } from './jobs';
 import type {
   EvaluationSummary,
   Examination,
+  JobSummary,
   RecoverySummary,
   TrainingStage,
   TrainingSummary,
@@ -34,17 +36,12 @@ const STAGE_WORDS: Readonly<Record<TrainingStage, string>> = {
 
 export const stageWords = ({ stage }: TrainingSummary): string => STAGE_WORDS[stage];
 
-/** What the stage means, one sentence. `before` are the trainings that were requested earlier. */
-export function stageSentence(
-  summary: TrainingSummary,
-  before: readonly TrainingSummary[],
-): string {
+/** What the stage means, one sentence. */
+export function stageSentence(summary: TrainingSummary, job: JobSummary | undefined): string {
   switch (summary.stage) {
     case 'waiting': {
-      const first = before.findLast((one) => isRunning(one) || one.stage === 'waiting');
-      return first
-        ? `Waits until ${first.query.name} is finished.`
-        : 'Waits for another job of the server, such as an evaluation.';
+      const words = waitWords(job);
+      return `${words.charAt(0).toUpperCase()}${words.slice(1)}.`;
     }
     case 'images':
       return 'The camera takes an image above each cell of the map.';
@@ -70,9 +67,6 @@ function learningSentence({ left_s, episodes }: TrainingSummary): string {
   return left_s === null ? `${tried}.` : `${tried}, ${leftWords(left_s)}.`;
 }
 
-/** `about 3 min left`. */
-export const leftWords = (left_s: number): string => `about ${roughly(left_s)} left`;
-
 /** `learns, 25 %, about 3 min left`; without numbers in the other stages. */
 export function progressWords(summary: TrainingSummary): string {
   const { stage, updates, updates_total, left_s } = summary;
@@ -96,9 +90,9 @@ export const updateWords = ({ updates, updates_total }: TrainingSummary): string
   `${updates} of ${counted(updates_total, 'update')}`;
 
 /** Announcement for screen readers. It changes at each quarter and each stage. */
-export function milestone(summary: TrainingSummary, before: readonly TrainingSummary[]): string {
+export function milestone(summary: TrainingSummary, job: JobSummary | undefined): string {
   const { query, stage, updates, updates_total } = summary;
-  if (stage !== 'learning') return `${query.name}: ${stageSentence(summary, before)}`;
+  if (stage !== 'learning') return `${query.name}: ${stageSentence(summary, job)}`;
   const quarters = Math.floor((4 * updates) / Math.max(1, updates_total));
   return `${query.name}: ${25 * quarters} % of the updates.`;
 }

@@ -9,6 +9,7 @@ export * from './protocol/layers.gen';
 export * from './protocol/comparison.gen';
 export * from './protocol/fields.gen';
 export * from './protocol/values.gen';
+export * from './protocol/jobs.gen';
 export * from './protocol/evaluations.gen';
 export * from './protocol/recoveries.gen';
 export * from './protocol/report.gen';

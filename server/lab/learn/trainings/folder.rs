@@ -28,6 +28,9 @@ const FRAMES: &str = "frames";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     pub query: TrainingQuery,
+    /// The session that started it.
+    #[serde(default)]
+    pub owner: Option<String>,
     pub updates_total: u64,
     pub stage: TrainingStage,
     pub elapsed_s: f64,

@@ -18,7 +18,7 @@ struct Laboratory {
 impl Laboratory {
     fn in_folder(folder: &Path) -> Self {
         let gpu = Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter");
-        let queue = Arc::new(Queue::start(gpu).unwrap());
+        let queue = Arc::new(Queue::start(&gpu).unwrap());
         let policies = Arc::new(Library::in_folder(folder.join("policies")));
         let sweeps = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("target/test-output/sweeps");
         let trainings =
@@ -75,7 +75,7 @@ fn copy(from: &Path, to: &Path) {
 fn a_training_that_is_interrupted_ends_in_the_same_policy() {
     let (one, two, three) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let whole = Laboratory::in_folder(one.path());
-    let training = whole.trainings.submit(query("mine")).unwrap();
+    let training = whole.trainings.submit(None, query("mine")).unwrap();
     wait(&training, |status| status.frames.len() == 2);
     // What a server finds that was killed now.
     copy(one.path(), two.path());
@@ -92,7 +92,7 @@ fn a_training_that_is_interrupted_ends_in_the_same_policy() {
 
     // Paused after its first point, with a new server before it goes on.
     let before = Laboratory::in_folder(three.path());
-    let paused = before.trainings.submit(query("mine")).unwrap();
+    let paused = before.trainings.submit(None, query("mine")).unwrap();
     wait(&paused, |status| !status.frames.is_empty());
     assert!(paused.pause());
     let status = wait(&paused, |status| status.stage == TrainingStage::Paused);
@@ -114,10 +114,10 @@ fn a_cancelled_training_leaves_nothing_and_frees_its_name() {
     std::fs::create_dir_all(&foreign).unwrap();
     let laboratory = Laboratory::in_folder(folder.path());
     std::fs::remove_dir(&foreign).unwrap();
-    let first = laboratory.trainings.submit(query("mine")).unwrap();
+    let first = laboratory.trainings.submit(None, query("mine")).unwrap();
     assert_eq!(first.id, "training-1");
-    let second = laboratory.trainings.submit(query("yours")).unwrap();
-    let error = laboratory.trainings.submit(query("mine")).unwrap_err();
+    let second = laboratory.trainings.submit(None, query("yours")).unwrap();
+    let error = laboratory.trainings.submit(None, query("mine")).unwrap_err();
     assert!(matches!(error, SubmitTrainingError::Query(QueryError::Taken { .. })), "{error}");
     assert!(second.cancel() && !second.cancel());
     assert_eq!(second.status().stage, TrainingStage::Cancelled);
@@ -128,11 +128,11 @@ fn a_cancelled_training_leaves_nothing_and_frees_its_name() {
     wait(&first, |status| status.stage == TrainingStage::Cancelled);
     assert_eq!(std::fs::read_dir(folder.path().join("trainings")).unwrap().count(), 0);
     assert!(laboratory.policies.all().is_empty());
-    let third = laboratory.trainings.submit(query("mine")).unwrap();
+    let third = laboratory.trainings.submit(None, query("mine")).unwrap();
     assert_eq!(third.id, "training-3");
     laboratory.queue.close();
     assert!(matches!(
-        laboratory.trainings.submit(query("other")),
+        laboratory.trainings.submit(None, query("other")),
         Err(SubmitTrainingError::Queue(QueueError::Closing))
     ));
     assert_eq!(laboratory.trainings.all().len(), 3, "the refused one is not kept");
@@ -143,7 +143,7 @@ fn a_cancelled_training_leaves_nothing_and_frees_its_name() {
 fn a_training_that_cannot_be_saved_fails_and_goes_on_later() {
     let folder = tempfile::tempdir().unwrap();
     let laboratory = Laboratory::in_folder(folder.path());
-    let training = laboratory.trainings.submit(query("mine")).unwrap();
+    let training = laboratory.trainings.submit(None, query("mine")).unwrap();
     let frames = folder.path().join("trainings/training-1/frames");
     wait(&training, |status| !status.frames.is_empty());
     // A folder in place of the file, instead of a full disk.
@@ -172,7 +172,7 @@ fn refuses_what_cannot_be_trained_and_names_the_field() {
         (TrainingQuery { start_from: Some("../x".into()), ..query("mine") }, "start_from"),
         (TrainingQuery { goal_m: far, ..query("mine") }, "goal_m"),
     ] {
-        match laboratory.trainings.submit(query) {
+        match laboratory.trainings.submit(None, query) {
             Err(SubmitTrainingError::Query(error)) => assert_eq!(error.field(), field, "{error}"),
             other => panic!("{field}: {other:?}"),
         }
@@ -187,7 +187,7 @@ fn fine_tuning_begins_with_the_policys_weights() {
     let laboratory = Laboratory::in_folder(folder.path());
     let settings = Settings { updates: Some(100), learning_rate: Some(1e-5), ..Settings::default() };
     let query = TrainingQuery { start_from: Some("colon".into()), settings, ..query("mine") };
-    let training = laboratory.trainings.submit(query).unwrap();
+    let training = laboratory.trainings.submit(None, query).unwrap();
     let status = wait(&training, |status| status.stage.is_final());
     assert_eq!(status.stage, TrainingStage::Done);
     let tuned = policy::weights(&laboratory.bytes(&training)).unwrap();

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +11,9 @@ use super::folder::{self, Record};
 use super::frame::{Cells, Frame};
 use super::query::{QueryError, TrainingQuery};
 use super::stage::TrainingStage;
+use super::work_of;
 use crate::changes::Changes;
-use crate::jobs::{Job, Workshop};
+use crate::jobs::{Job, Lane, Ticket, Workshop};
 use crate::learn::curve::Curve;
 use crate::learn::error::TrainingError;
 use crate::learn::examine::{EXAMINATION_SEED, Marks};
@@ -70,6 +71,8 @@ pub struct Status {
     pub examined: Option<Marks>,
     /// The policy, as `rl_policy`.
     pub policy: Option<String>,
+    /// When it ended, since the server began.
+    pub ended: Option<Instant>,
     wish: Wish,
 }
 
@@ -80,6 +83,7 @@ pub struct Training {
     pub query: TrainingQuery,
     /// Updates at its end.
     pub updates_total: u64,
+    pub ticket: Ticket,
     map: Map,
     pub(super) folder: PathBuf,
     /// Folder of the maps' images.
@@ -95,12 +99,13 @@ impl Training {
         id: String,
         record: Record,
         map: Map,
+        ticket: Ticket,
         folders: [PathBuf; 2],
         policies: Arc<Library>,
         (cells, frames): (Option<Cells>, Vec<Frame>),
         changes: Changes,
     ) -> Arc<Self> {
-        let Record { query, updates_total, stage, elapsed_s, points, examined, policy, reader: _ } = record;
+        let Record { query, owner: _, updates_total, stage, elapsed_s, points, examined, policy, reader: _ } = record;
         let status = Status {
             stage,
             elapsed_s,
@@ -110,10 +115,12 @@ impl Training {
             frames: frames.into_iter().map(Arc::new).collect(),
             examined,
             policy,
+            ended: None,
             wish: Wish::GoOn,
         };
         let [folder, sweeps] = folders;
-        Arc::new(Self { id, query, updates_total, map, folder, sweeps, policies, status: Mutex::new(status), changes })
+        let status = Mutex::new(status);
+        Arc::new(Self { id, query, updates_total, ticket, map, folder, sweeps, policies, status, changes })
     }
 
     pub fn status(&self) -> Status {
@@ -192,6 +199,7 @@ impl Training {
         let status = self.lock();
         Record {
             query: self.query.clone(),
+            owner: self.ticket.owner.clone(),
             updates_total: self.updates_total,
             stage: status.stage.clone(),
             elapsed_s: status.elapsed_s,
@@ -203,7 +211,14 @@ impl Training {
     }
 
     fn change(&self, change: impl FnOnce(&mut Status)) {
-        change(&mut self.lock());
+        let mut status = self.lock();
+        change(&mut status);
+        if !status.stage.is_final() {
+            status.ended = None;
+        } else if status.wish != Wish::Suspend {
+            status.ended.get_or_insert_with(Instant::now);
+        }
+        drop(status);
         self.changes.note();
     }
 
@@ -256,6 +271,8 @@ impl Training {
         if let Some(error) = failure {
             return Err(error.into());
         }
+        let updates = state.memory.updates - before;
+        workshop.paces.measure(&work_of(self.query.recipe), updates as f64, curve.spent_s() - spent_s);
         if !state.is_done() {
             return Ok(self.interrupted());
         }
@@ -327,6 +344,14 @@ impl Training {
 }
 
 impl Job for Training {
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn lane(&self) -> Lane {
+        self.ticket.lane
+    }
+
     fn is_waiting(&self) -> bool {
         self.lock().stage == TrainingStage::Waiting
     }

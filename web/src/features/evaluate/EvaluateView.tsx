@@ -8,6 +8,7 @@ import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
 import { episodesDone, episodesInAll, numberOf, subject } from './progress';
 import { Stage } from './Stage';
+import { takeOpened } from '../../lab/jobs';
 import { isActive } from '../../lab/trainingStage';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import type { Addressed, Session, Trial } from '../../lab/slices';
@@ -42,6 +43,7 @@ export default function EvaluateView(props: { lab: Addressed & Session & Trial }
   const all = (): readonly EvaluationSummary[] => props.lab.catalog.evaluations() ?? [];
   /** The chosen evaluation, otherwise the newest. */
   const shown = createMemo(() => all().find(({ id }) => id === chosen()) ?? all().at(-1));
+  takeOpened('evaluation', setChosen);
   return (
     <>
       <main class="view evaluate">
@@ -61,7 +63,7 @@ export default function EvaluateView(props: { lab: Addressed & Session & Trial }
       <aside class="inspector" aria-label="New evaluation">
         <div class="inspector-panel">
           <h2>New evaluation</h2>
-          <EvaluationForm lab={props.lab} measured={all()} onStarted={setChosen}>
+          <EvaluationForm lab={props.lab} onStarted={setChosen}>
             <section class="evaluation-entries" aria-label="Evaluations">
               <h3>Earlier</h3>
               <ForKeyed each={all().toReversed()} by={({ id }) => id}>

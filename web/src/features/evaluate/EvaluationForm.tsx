@@ -8,10 +8,10 @@ import {
   type PolicyField,
   policyOptions,
 } from '../../lab/parameters';
+import { paceOf } from '../../lab/jobs';
 import { createPrograms } from '../../lab/programs';
 import type { Session, Trial } from '../../lab/slices';
 import { EVALUATION_FIELDS } from '../../net/forms.gen';
-import type { EvaluationSummary } from '../../net/protocol.gen';
 import { CheckField, ChoiceField, NumberField, type Option } from '../../ui/fields/fields';
 import { Form } from '../../ui/fields/Form';
 import { roughly } from '../../ui/format';
@@ -26,7 +26,6 @@ const DISTURBANCES = [0, 3] as const;
 
 export function EvaluationForm(props: {
   lab: Session & Trial;
-  measured: readonly EvaluationSummary[];
   onStarted: (id: string) => void;
   /** Below the fields. */
   children?: JSX.Element;
@@ -41,14 +40,13 @@ export function EvaluationForm(props: {
     const query = queryOf(draft());
     const size = sizeWords(query);
     if (size === undefined) return '';
-    const time_s = estimate_s(query, props.measured);
-    const estimate = Number.isNaN(time_s) ? 'duration not known yet' : `about ${roughly(time_s)}`;
-    return `${size}; ${estimate}.`;
+    const time_s = estimate_s(query, (work) => paceOf(lab.catalog, work));
+    return Number.isNaN(time_s) ? `${size}.` : `${size}; about ${roughly(time_s)}.`;
   };
   return (
     <Form
       class="evaluation-form"
-      send={async () => props.onStarted(await startEvaluation(queryOf(draft())))}
+      send={async () => props.onStarted(await startEvaluation(lab.session, queryOf(draft())))}
       button="Run"
       isFoot
       beside={

@@ -2,36 +2,33 @@
 
 import { For, Show, createMemo, on, type JSX } from 'solid-js';
 import { Download } from 'lucide';
+import { jobOf, leftWords, waitWords } from '../../lab/jobs';
 import { operatorOnly } from '../../lab/operatorOnly';
 import { createAttempt } from '../../ui/attempt';
-import { roughly } from '../../ui/format';
 import { Icon } from '../../ui/Icon';
 import { SmallButton } from '../../ui/SmallButton';
 import { isActive } from '../../lab/trainingStage';
-import type { EvaluationSummary } from '../../net/protocol.gen';
+import type { EvaluationSummary, JobSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
 import { cancelEvaluation, createReport } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
-import { episodesDone, episodesInAll, milestone, numberOf, remaining_s, subject } from './progress';
+import { episodesDone, episodesInAll, milestone, numberOf, subject } from './progress';
 import { RobustnessPlots } from './RobustnessPlots';
 import { Stage } from './Stage';
 import { reportAddress, REPORTS } from './table';
 import type { Addressed, Session, Trial } from '../../lab/slices';
 import './EvaluationPanel.css';
 
-function Progress(props: {
-  summary: EvaluationSummary;
-  measured: readonly EvaluationSummary[];
-}): JSX.Element {
+function Progress(props: { summary: EvaluationSummary; job: JobSummary | undefined }): JSX.Element {
   const done = (): number => episodesDone(props.summary);
   const all = (): number => episodesInAll(props.summary);
   const words = (): string => {
     const counts = `${done()} of ${all()} episodes`;
     if (!isActive(props.summary)) return counts;
-    if (props.summary.stage === 'waiting') return `${counts}, waiting for another evaluation`;
-    const left_s = remaining_s(props.summary, props.measured);
-    return Number.isNaN(left_s) ? counts : `${counts}, about ${roughly(left_s)} left`;
+    if (props.summary.stage === 'waiting') return `${counts}, ${waitWords(props.job)}`;
+    const left_s = props.job?.left_s ?? null;
+    return left_s === null ? counts : `${counts}, ${leftWords(left_s)}`;
   };
   return (
     <div class="evaluation-progress">
@@ -55,8 +52,8 @@ export function EvaluationPanel(props: {
 }): JSX.Element {
   const { lab } = props;
   const report = createReport(() => props.summary);
-  const said = createMemo(() => milestone(props.summary));
-  const measured = (): readonly EvaluationSummary[] => lab.catalog.evaluations() ?? [];
+  const job = createMemo(() => jobOf(lab.catalog, props.summary.id));
+  const said = createMemo(() => milestone(props.summary, job()));
   /** One for each evaluation, so that a refusal is shown at its own. */
   const cancelling = createMemo(on(() => props.summary.id, createAttempt));
   return (
@@ -77,7 +74,7 @@ export function EvaluationPanel(props: {
       <p class="visually-hidden" role="status" data-testid="evaluation-said">
         {said()}
       </p>
-      <Progress summary={props.summary} measured={measured()} />
+      <Progress summary={props.summary} job={job()} />
       <p class="refusal" role="alert">
         {cancelling().refusal() ?? props.summary.message}
       </p>

@@ -1,7 +1,7 @@
 // How far an evaluation is: an icon and a word.
 
 import type { JSX } from 'solid-js';
-import { Ban, Check, Hourglass, type IconNode, Play, X } from 'lucide';
+import { Ban, Check, Hourglass, type IconNode, Pause, Play, X } from 'lucide';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { Badge } from '../../ui/Badge';
 import { stageWords } from './progress';
@@ -9,6 +9,7 @@ import { stageWords } from './progress';
 const LOOKS: Record<EvaluationSummary['stage'], readonly [IconNode, 'good' | 'bad' | 'plain']> = {
   waiting: [Hourglass, 'plain'],
   running: [Play, 'plain'],
+  paused: [Pause, 'plain'],
   done: [Check, 'good'],
   cancelled: [Ban, 'plain'],
   failed: [X, 'bad'],

@@ -1,15 +1,16 @@
 // What can be done with evaluations, and their reports.
 
 import type { Accessor } from 'solid-js';
+import { startPath } from '../../lab/jobs';
 import { createDetail } from '../../net/detail';
 import { post, remove } from '../../net/requests';
 import type { EvaluationQuery, EvaluationReport, EvaluationSummary } from '../../net/protocol.gen';
 
 const PATH = '/api/evaluations';
 
-/** Starts an evaluation and returns its id. */
-export const startEvaluation = async (query: EvaluationQuery): Promise<string> =>
-  (await post<EvaluationSummary>(PATH, JSON.stringify(query))).id;
+/** Starts an evaluation for a session and returns its id. */
+export const startEvaluation = async (session: string, query: EvaluationQuery): Promise<string> =>
+  (await post<EvaluationSummary>(startPath(PATH, session), JSON.stringify(query))).id;
 
 export const cancelEvaluation = (id: string): Promise<void> => remove(`${PATH}/${id}`);
 

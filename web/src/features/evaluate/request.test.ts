@@ -1,6 +1,5 @@
 import { describe, expect, it } from 'vitest';
 import { chooseControllers, estimate_s, PAPERS, queryOf, sizeWords } from './request';
-import { cellOf, summaryOf } from './testing';
 
 const PAPERS_QUERY = {
   controllers: ['rl' as const],
@@ -67,19 +66,10 @@ describe('the size', () => {
     }
   });
 
-  it('has no duration before a measurement', () => {
-    expect(estimate_s(PAPERS_QUERY, [])).toBeNaN();
-    expect(estimate_s(PAPERS_QUERY, [summaryOf()])).toBeNaN();
-  });
-
-  it('is estimated from the most similar cell', () => {
-    const measured = summaryOf({
-      cells: [
-        cellOf({ done: 10, elapsed_s: 5 }),
-        cellOf({ disturbances: 3, done: 10, elapsed_s: 20 }),
-        cellOf({ controller: 'errt', map: 'colon', done: 10, elapsed_s: 900 }),
-      ],
-    });
-    expect(estimate_s(PAPERS_QUERY, [measured])).toBe(30 * 0.5 + 30 * 2);
+  it('has a duration from the pace of each controller', () => {
+    expect(estimate_s(PAPERS_QUERY, () => NaN)).toBeNaN();
+    const pace = (work: string): number => (work === 'evaluation_rl' ? 0.5 : 4);
+    expect(estimate_s(PAPERS_QUERY, pace)).toBe(60 * 0.5);
+    expect(estimate_s({ ...PAPERS_QUERY, controllers: ['rl', 'errt'] }, pace)).toBe(60 * 4.5);
   });
 });

@@ -1,15 +1,9 @@
 // The request for an evaluation, from the form's fields. Pure.
 
-import type {
-  Cell,
-  ControllerName,
-  EvaluationQuery,
-  EvaluationSummary,
-} from '../../net/protocol.gen';
+import type { Cell, ControllerName, EvaluationQuery } from '../../net/protocol.gen';
 import { CONTROLLERS, type NumberName } from '../../lab/parameters';
 import { counted } from '../../ui/format';
 import { numberOf } from '../../ui/fields/number';
-import { secondsAnEpisode } from './progress';
 import { numberField } from './varied';
 
 /** A parameter that takes several values, as typed. */
@@ -113,9 +107,11 @@ export function sizeWords(query: EvaluationQuery): string | undefined {
   return `${counted(cells, 'cell')}, ${counted(cells * query.episodes, 'episode')}`;
 }
 
-/** Estimated duration; NaN if no similar cell was measured. */
-export function estimate_s(query: EvaluationQuery, measured: readonly EvaluationSummary[]): number {
+/** Estimated duration; NaN if a pace is not known. */
+export function estimate_s(query: EvaluationQuery, pace: (work: string) => number): number {
   return cellsOf(query)
-    .map((cell) => secondsAnEpisode(cell, measured) * query.episodes * combinations(query))
+    .map(
+      ({ controller }) => pace(`evaluation_${controller}`) * query.episodes * combinations(query),
+    )
     .reduce((sum_s, cell_s) => sum_s + cell_s, 0);
 }

@@ -182,7 +182,7 @@ function TrainingStep(props: Props<TrainingRun>): JSX.Element {
               aria-valuetext={updateWords(now())}
             />
             <p class="number" role="status">
-              {stageSentence(now(), [])}
+              {stageSentence(now(), jobOf(lab.catalog, now().id))}
             </p>
           </div>
         )}

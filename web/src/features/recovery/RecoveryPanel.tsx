@@ -2,13 +2,14 @@
 
 import { Shield } from 'lucide';
 import { Show, createMemo, onMount, type JSX } from 'solid-js';
+import { jobOf, leftWords, takeOpened, waitWords } from '../../lab/jobs';
 import { labelOf } from '../../lab/parameters';
 import type { PanelProps } from '../../lab/panel';
 import { operatorOnly } from '../../lab/operatorOnly';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { ByHand, Notices, Session, Trial } from '../../lab/slices';
-import { isActive, leftWords } from '../../lab/trainingStage';
-import type { RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
+import { isActive } from '../../lab/trainingStage';
+import type { JobSummary, RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
 import { createAttempt } from '../../ui/attempt';
 import { Empty } from '../../ui/Empty';
 import { clock, counted } from '../../ui/format';
@@ -22,13 +23,17 @@ import { RecoveryStart } from './RecoveryStart';
 import * as store from './store';
 import './recovery.css';
 
-function progressWords({ stage, done, planned, message }: RecoverySummary): string {
+function progressWords(
+  { stage, done, planned, message }: RecoverySummary,
+  job: JobSummary | undefined,
+): string {
   const counts = `${done} of ${counted(planned, 'trial')}`;
-  if (stage === 'waiting') return 'waiting for another job';
+  if (stage === 'waiting') return waitWords(job);
   if (stage === 'running') {
-    const trial_s = store.trial_s();
-    return trial_s === undefined ? counts : `${counts}, ${leftWords(trial_s * (planned - done))}`;
+    const left_s = job?.left_s ?? null;
+    return left_s === null ? counts : `${counts}, ${leftWords(left_s)}`;
   }
+  if (stage === 'paused') return `paused after ${counts}`;
   if (stage === 'failed') return `failed: ${message ?? ''}`;
   return stage === 'done' ? counted(done, 'trial') : `cancelled after ${counts}`;
 }
@@ -123,7 +128,8 @@ function Report(props: { lab: Session & Trial & Notices; report: RecoveryReport 
           ? ''
           : ', which is another map than that of the session,'}{' '}
         {isForGoal(props.report, lab.goal()) ? '' : 'to another goal than the present one, '}
-        from {clock(props.report.tick * (lab.scene()?.tick_s ?? 0))}: {progressWords(props.report)}
+        from {clock(props.report.tick * (lab.scene()?.tick_s ?? 0))}:{' '}
+        {progressWords(props.report, jobOf(lab.catalog, props.report.id))}
       </p>
       <Show when={isActive(props.report)}>
         <Progress lab={lab} report={props.report} />
@@ -150,6 +156,7 @@ export default function RecoveryPanel(
   const { lab } = props;
   const map = createMemo(() => lab.scene()?.map);
   const shown = createShown(lab.catalog, map);
+  takeOpened('recovery', (id) => store.setWanted({ id, on: map() }));
   const report = (): RecoveryReport | undefined =>
     store.report()?.id === shown()?.id ? store.report() : undefined;
   return (

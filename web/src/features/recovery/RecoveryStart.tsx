@@ -2,6 +2,7 @@
 
 import { Shield } from 'lucide';
 import { createMemo, For, Show, type JSX } from 'solid-js';
+import { paceOf } from '../../lab/jobs';
 import { createTakingPart } from '../../lab/offered';
 import type { Session, Trial } from '../../lab/slices';
 import { RECOVERY_FIELDS } from '../../net/forms.gen';
@@ -14,7 +15,7 @@ import { clock, counted, roughly } from '../../ui/format';
 import { KIND_WORDS } from './cells';
 import { startRecovery } from './recoveries';
 import { cellsMost } from './size';
-import { change, draft, edits, trial_s } from './store';
+import { change, draft, edits } from './store';
 
 const KINDS = Object.entries(KIND_WORDS) as [RecoveryKind, string][];
 const COLUMNS: Readonly<Record<RecoveryKind, string>> = {
@@ -31,7 +32,7 @@ const FILES = [
 
 export function RecoveryStart(props: {
   lab: Session & Trial;
-  /** Offered as files. */
+  /** Offered as files once a trial has ended. */
   report: RecoveryReport | undefined;
 }): JSX.Element {
   const { lab } = props;
@@ -52,8 +53,8 @@ export function RecoveryStart(props: {
   });
   const size = (): string => {
     const count = `${draft().kind === 'place' ? 'At most ' : ''}${counted(trials(), 'trial')}`;
-    const each_s = trial_s();
-    return each_s === undefined ? count : `${count}, about ${roughly(trials() * each_s)}`;
+    const time_s = trials() * paceOf(lab.catalog, 'recovery');
+    return Number.isNaN(time_s) ? count : `${count}, about ${roughly(time_s)}`;
   };
   const start = async (): Promise<void> => {
     const [tick, map] = [lab.state()?.tick, lab.scene()?.map];
@@ -84,7 +85,7 @@ export function RecoveryStart(props: {
       disabled={!lab.canOperate()}
       beside={
         <>
-          <For each={props.report && FILES}>
+          <For each={(props.report?.done ?? 0) > 0 && FILES}>
             {([ending, name]) => (
               <a
                 class="button small ghost"

@@ -10,7 +10,7 @@ import {
   squareCentimetres,
   trialWords,
 } from './cells';
-import { cellsMost, trialSeconds } from './size';
+import { cellsMost } from './size';
 import { drawingOf, nextShape } from './shapes';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.3, y_min_m: -0.5, y_max_m: -0.2 };
@@ -124,15 +124,4 @@ it('knows before the start how many cells there are at most', () => {
   expect(cellsMost('place', 24, half)).toBe(12 * 12);
   expect(cellsMost('push', 24, half)).toBe(24 * 6);
   expect(cellsMost('blind', 4, half)).toBe(4 * 4);
-});
-
-it('measures a trial only while the map runs', () => {
-  const at = (done: number, at_ms: number, stage: RecoveryReport['stage'] = 'running') => ({
-    ...{ id: 'recovery-1', done, at_ms, stage },
-  });
-  expect(trialSeconds(at(10, 0), at(30, 5000))).toBe(0.25);
-  expect(trialSeconds(at(0, 0, 'waiting'), at(30, 5000))).toBeUndefined();
-  expect(trialSeconds(at(10, 0), at(30, 5000, 'done'))).toBeUndefined();
-  expect(trialSeconds(at(10, 0), at(10, 5000))).toBeUndefined();
-  expect(trialSeconds({ ...at(10, 0), id: 'recovery-0' }, at(30, 5000))).toBeUndefined();
 });

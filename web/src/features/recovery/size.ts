@@ -1,7 +1,7 @@
-// How many trials a recovery map has, and how long they take. Pure.
+// How many trials a recovery map has. Pure.
 
 import { insidePolygon, type Vec2 } from '../../lab/geometry';
-import type { RecoveryKind, RecoveryReport, SceneMessage } from '../../net/protocol.gen';
+import type { RecoveryKind, SceneMessage } from '../../net/protocol.gen';
 
 /** Cells of the finest grid, as `server/lab/recovery` makes them. Of places, a few of these have no room for the bead. */
 export function cellsMost(
@@ -18,16 +18,4 @@ export function cellsMost(
     y_min_m + (Math.floor(cell / columns) + 0.5) * size_m,
   ]);
   return centers.filter((at) => !walls.some((wall) => insidePolygon(wall, at))).length;
-}
-
-/** A report, and when this page got it. */
-export interface Seen extends Pick<RecoveryReport, 'id' | 'stage' | 'done'> {
-  readonly at_ms: number;
-}
-
-/** Seconds of a trial between two reports of a map that runs; undefined if they do not tell. */
-export function trialSeconds(before: Seen | undefined, now: Seen): number | undefined {
-  const isSame = before?.id === now.id && before.stage === 'running' && now.stage === 'running';
-  if (!isSame || now.done === before.done) return undefined;
-  return (now.at_ms - before.at_ms) / 1000 / (now.done - before.done);
 }

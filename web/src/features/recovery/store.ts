@@ -5,7 +5,6 @@ import type { Vec2 } from '../../lab/geometry';
 import { RECOVERY_DEFAULTS } from '../../net/forms.gen';
 import type { ControllerName, RecoveryKind, RecoveryReport } from '../../net/protocol.gen';
 import { createDraft } from '../../ui/fields/draft';
-import { type Seen, trialSeconds } from './size';
 
 interface Draft extends Record<keyof typeof RECOVERY_DEFAULTS, string> {
   readonly kind: RecoveryKind;
@@ -49,17 +48,8 @@ export function shownOf({ names }: RecoveryReport): readonly [number, ...number[
 /** Where the hand has released the bead last. */
 export const [dropped, setDropped] = createSignal<Vec2>();
 
-/** Seconds of a trial while a map ran that this page has watched. */
-export const [trial_s, setTrial_s] = createSignal<number>();
-/** The first report of that map while it ran. */
-let first: Seen | undefined;
-
 /** A cell or a pair that was chosen belongs to its report. */
 export function takeReport(next: RecoveryReport): void {
-  const seen = { ...next, at_ms: performance.now() };
-  if (next.id !== first?.id || first.stage !== 'running') first = seen;
-  const measured_s = trialSeconds(first, seen);
-  if (measured_s !== undefined) setTrial_s(measured_s);
   batch(() => {
     if (next.id !== report()?.id) {
       setChosen(undefined);

@@ -1,6 +1,7 @@
 // The form for a new training.
 
 import { For, Show, createMemo, type JSX } from 'solid-js';
+import { paceOf } from '../../lab/jobs';
 import type { Session, Trial } from '../../lab/slices';
 import { RECIPES } from '../../net/forms.gen';
 import { Form } from '../../ui/fields/Form';
@@ -11,6 +12,8 @@ import {
   type Option,
   TextField,
 } from '../../ui/fields/fields';
+import { numberOf } from '../../ui/fields/number';
+import { roughly } from '../../ui/format';
 import { SmallButton } from '../../ui/SmallButton';
 import {
   BLANK,
@@ -51,9 +54,14 @@ export function StartPanel(props: {
       .filter(({ has_memory }) => !has_memory)
       .map((policy) => [policy.reference, policy.name] as const),
   ];
+  const estimate = (): string => {
+    const each_s = paceOf(lab.catalog, `training_${draft().recipe}`);
+    const time_s = each_s * numberOf(settingText(draft(), 'updates'));
+    return time_s > 0 ? `about ${roughly(time_s)}` : '';
+  };
   const changed = (): number => Object.keys(draft().settings).length;
   const start = async (): Promise<void> => {
-    const id = await startTraining(queryOf(draft(), map(), name()));
+    const id = await startTraining(lab.session, queryOf(draft(), map(), name()));
     // The next one gets a name of its own.
     change({ name: undefined });
     compare(undefined);
@@ -71,6 +79,11 @@ export function StartPanel(props: {
       buttonName={`Train ${name()}`}
       disabled={!lab.canOperate()}
       why="Only the operator can start and change trainings."
+      beside={
+        <span class="hint" data-testid="training-size">
+          {estimate()}
+        </span>
+      }
     >
       <ChoiceField
         {...edits('map')}

@@ -3,9 +3,11 @@
 import { For, Show, createMemo, mapArray, type JSX } from 'solid-js';
 import { Plus } from 'lucide';
 import type { Addressed, Notices, Session, Trial } from '../../lab/slices';
+import { jobOf, takeOpened } from '../../lab/jobs';
 import { isActive, milestone, stageSentence } from '../../lab/trainingStage';
 import { createDetail } from '../../net/detail';
 import type {
+  JobSummary,
   PolicySummary,
   TrainingPoint,
   TrainingReport,
@@ -48,11 +50,8 @@ export default function TrainView(props: {
   const all = (): readonly TrainingSummary[] => lab.catalog.trainings() ?? [];
   const byId = (id: string | undefined): TrainingSummary | undefined =>
     all().find((one) => one.id === id);
-  const before = ({ id }: TrainingSummary): readonly TrainingSummary[] =>
-    all().slice(
-      0,
-      all().findIndex((one) => one.id === id),
-    );
+  const job = ({ id }: TrainingSummary): JobSummary | undefined => jobOf(lab.catalog, id);
+  takeOpened('training', choose);
   /** The chosen training, otherwise the newest. */
   const shown = createMemo(() => byId(chosen()) ?? all().at(-1));
   const shownId = createMemo(() => shown()?.id);
@@ -84,7 +83,7 @@ export default function TrainView(props: {
   };
   const said = createMemo(() => {
     const summary = shown();
-    return summary ? milestone(summary, before(summary)) : '';
+    return summary ? milestone(summary, job(summary)) : '';
   });
   /** Each lasts as long as its training is watched. */
   const made = mapArray(
@@ -111,7 +110,7 @@ export default function TrainView(props: {
             <TrainingHead
               lab={lab}
               summary={watch.summary()}
-              before={before(watch.summary())}
+              job={job(watch.summary())}
               isDeleted={watch.summary().policy !== null && !trained(watch.summary())}
               isFirst={index() === 0}
               onUse={() => use(trained(watch.summary()), [watch.summary().query.map])}
@@ -165,7 +164,7 @@ export default function TrainView(props: {
             {(summary) => (
               <TrainingEntry
                 summary={summary()}
-                before={before(summary())}
+                job={job(summary())}
                 isShown={shownId() === summary().id}
                 isCompared={beside()?.id === summary().id}
                 onChoose={() => {
@@ -194,7 +193,7 @@ export default function TrainView(props: {
             {(watch) => (
               <PlanPane
                 watch={watch}
-                sentence={stageSentence(watch.summary(), before(watch.summary()))}
+                sentence={stageSentence(watch.summary(), job(watch.summary()))}
                 range={range()}
                 isNamed={watches().length > 1}
               />

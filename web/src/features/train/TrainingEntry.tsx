@@ -2,14 +2,13 @@
 
 import { Show, type JSX } from 'solid-js';
 import { stageSentence } from '../../lab/trainingStage';
-import type { TrainingSummary } from '../../net/protocol.gen';
+import type { JobSummary, TrainingSummary } from '../../net/protocol.gen';
 import { SmallButton } from '../../ui/SmallButton';
 import { StageBadge } from './StageBadge';
 
 export function TrainingEntry(props: {
   summary: TrainingSummary;
-  /** The trainings that were requested earlier. */
-  before: readonly TrainingSummary[];
+  job: JobSummary | undefined;
   isShown: boolean;
   /** Whether it is shown beside the shown one. */
   isCompared: boolean;
@@ -28,7 +27,7 @@ export function TrainingEntry(props: {
         <strong>{name()}</strong> <span class="about">{props.summary.query.map}</span>{' '}
         <StageBadge summary={props.summary} />
       </button>
-      <p class="training-words number">{stageSentence(props.summary, props.before)}</p>
+      <p class="training-words number">{stageSentence(props.summary, props.job)}</p>
       <Show when={!props.isShown}>
         <SmallButton
           aria-label={`Compare with ${name()}`}

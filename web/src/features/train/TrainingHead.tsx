@@ -5,7 +5,7 @@ import { operatorOnly } from '../../lab/operatorOnly';
 import { policyName } from '../../lab/parameters';
 import type { Session } from '../../lab/slices';
 import { isActive, stageSentence, updateWords } from '../../lab/trainingStage';
-import type { TrainingSummary } from '../../net/protocol.gen';
+import type { JobSummary, TrainingSummary } from '../../net/protocol.gen';
 import { createAttempt } from '../../ui/attempt';
 import { ConfirmButton } from '../../ui/ConfirmButton';
 import { SmallButton } from '../../ui/SmallButton';
@@ -16,8 +16,7 @@ import { isOpen, type Wish } from './wish';
 export function TrainingHead(props: {
   lab: Session;
   summary: TrainingSummary;
-  /** The trainings that were requested earlier. */
-  before: readonly TrainingSummary[];
+  job: JobSummary | undefined;
   /** Whether its policy was deleted after the training. */
   isDeleted: boolean;
   /** Whether its button may be the primary one. */
@@ -88,7 +87,7 @@ export function TrainingHead(props: {
       />
       <p class="training-words number">
         {share()}
-        {stageSentence(props.summary, props.before)}
+        {stageSentence(props.summary, props.job)}
       </p>
       <div class="training-deeds">
         <Show when={props.isDeleted}>

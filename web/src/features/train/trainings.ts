@@ -2,6 +2,7 @@
 
 import type { TrainingQuery, TrainingSummary } from '../../net/protocol.gen';
 import { patch, post, remove } from '../../net/requests';
+import { startPath } from '../../lab/jobs';
 import { nameFault } from './recipes';
 
 export const TRAININGS = '/api/trainings';
@@ -12,9 +13,9 @@ const policyPath = (name: string): string => `/api/policies/${encodeURIComponent
 
 export const policyFile = (name: string): string => `${policyPath(name)}.safetensors`;
 
-/** Returns the id. */
-export const startTraining = async (query: TrainingQuery): Promise<string> =>
-  (await post<TrainingSummary>(TRAININGS, JSON.stringify(query))).id;
+/** For a session. Returns the id. */
+export const startTraining = async (session: string, query: TrainingQuery): Promise<string> =>
+  (await post<TrainingSummary>(startPath(TRAININGS, session), JSON.stringify(query))).id;
 
 export const pauseTraining = (id: string): Promise<unknown> => post(`${trainingPath(id)}/pause`);
 

@@ -1,6 +1,7 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 import type { ControllerName } from './experiment.gen';
+import type { JobStage } from './jobs.gen';
 
 /**
  * A parameter with evenly spaced values, ends included.
@@ -22,8 +23,6 @@ to: number,
  * Number of values, 2 to 20.
  */
 count: number, };
-
-export type JobStage = "waiting" | "running" | "done" | "cancelled" | "failed";
 
 /**
  * Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the

@@ -6,6 +6,7 @@ import type { ComparisonMessage } from './comparison.gen';
 import type { EvaluationSummary } from './evaluations.gen';
 import type { ControllerName, Disturbance, PositionerKind, Scripted } from './experiment.gen';
 import type { Happening, RefusalCode, Told } from './facts.gen';
+import type { JobPace, JobSummary } from './jobs.gen';
 import type { OverlayMessage, SeenMessage } from './layers.gen';
 import type { PolicySummary } from './policies.gen';
 import type { ProgramStanding } from './programs.gen';
@@ -149,7 +150,7 @@ values: Record<string, unknown>, };
 /**
  * A list of the server, whole, with the items of its HTTP resource.
  */
-export type CatalogMessage = { "list": "maps", "items": Array<string> } | { "list": "policies", "items": Array<PolicySummary> } | { "list": "trainings", "items": Array<TrainingSummary> } | { "list": "evaluations", "items": Array<EvaluationSummary> } | { "list": "recoveries", "items": Array<RecoverySummary> } | { "list": "programs", "items": Array<ProgramStanding> } | { "list": "challenges", "items": Array<ChallengeSummary> };
+export type CatalogMessage = { "list": "maps", "items": Array<string> } | { "list": "policies", "items": Array<PolicySummary> } | { "list": "trainings", "items": Array<TrainingSummary> } | { "list": "evaluations", "items": Array<EvaluationSummary> } | { "list": "recoveries", "items": Array<RecoverySummary> } | { "list": "programs", "items": Array<ProgramStanding> } | { "list": "challenges", "items": Array<ChallengeSummary> } | { "list": "jobs", "items": Array<JobSummary> } | { "list": "paces", "items": Array<JobPace> };
 
 /**
  * Points of the training that this browser watches.

@@ -1,6 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-import type { JobStage } from './evaluations.gen';
+import type { JobStage } from './jobs.gen';
 import type { ControllerName } from './experiment.gen';
 
 /**

@@ -1,6 +1,7 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-import type { EvaluationCell, EvaluationQuery, JobStage, Setting } from './evaluations.gen';
+import type { EvaluationCell, EvaluationQuery, Setting } from './evaluations.gen';
+import type { JobStage } from './jobs.gen';
 
 /**
  * One row of the table.
