@@ -114,7 +114,7 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 19] {
+fn modules() -> [(&'static str, Vec<Declaration>); 20] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
         (

@@ -206,7 +206,9 @@ async fn main() -> ExitCode {
         during(&mut live, ferry.until(&training, |job| updates(job) > updates(&from))).await;
         beside.push(round(&ferry, &mut main, &mut live).await);
         for (name, round) in [("alone ", alone.last()), ("beside", beside.last())] {
-            let Some(Round { first_trial, first_branch, recovery, comparison, missed, gaps_ms }) = round else { continue };
+            let Some(Round { first_trial, first_branch, recovery, comparison, missed, gaps_ms }) = round else {
+                continue;
+            };
             println!(
                 "{pair} {name}: recovery map {recovery:.2} s (first {first_trial:.2}), comparison {comparison:.2} s (first \
                  {first_branch:.2}), live p99 {:.1} ms, {missed} missed",

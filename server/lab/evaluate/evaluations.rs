@@ -35,7 +35,9 @@ pub struct Evaluations(Shelf<Evaluation>);
 impl Evaluations {
     /// Evaluations that run in a queue.
     pub fn new(queue: Arc<Queue>) -> Self {
-        for controller in ControllerName::ALL {
+        // A person and a robot client carry in no evaluation.
+        let is_evaluated = |name: &ControllerName| !matches!(name, ControllerName::You | ControllerName::Robot);
+        for controller in ControllerName::ALL.into_iter().filter(is_evaluated) {
             queue.paces.guess(&work_of(controller), GUESS_S);
         }
         Self(Shelf::new(queue, "evaluation"))

@@ -31,12 +31,13 @@ impl Lane {
         }
     }
 
-    /// 0 to 99; on Linux it becomes a niceness of 10 or 19. The scheduler gives a thread of niceness 10 seven times the
-    /// time of one of niceness 19, and one of a live session nine times that.
+    /// 0 to 99; on Linux it becomes a niceness of 10 or 15. The scheduler gives a thread of niceness 10 three times the time
+    /// of one of niceness 15, and one of a live session nine times that. With the lowest priority a training would make no
+    /// progress while anything else runs.
     pub(super) fn priority(self) -> u8 {
         match self {
             Self::Short => 22,
-            Self::Long => 0,
+            Self::Long => 10,
         }
     }
 }

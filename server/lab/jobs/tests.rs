@@ -188,7 +188,7 @@ fn a_job_pauses_goes_on_and_is_cancelled() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn its_threads_have_low_priority_and_long_jobs_the_lowest() {
+fn its_threads_have_low_priority_and_long_jobs_a_lower_one() {
     let niceness = || {
         let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap();
         // The name, in brackets, may contain anything; nice is the 17th field after it.
@@ -196,7 +196,7 @@ fn its_threads_have_low_priority_and_long_jobs_the_lowest() {
     };
     let (report, reports) = channel();
     let queue = queue();
-    for (lane, expected) in [(Lane::Short, "10"), (Lane::Long, "19")] {
+    for (lane, expected) in [(Lane::Short, "10"), (Lane::Long, "15")] {
         let work = move |workshop: &Workshop| [niceness(), workshop.pool.install(niceness)].join(" ");
         queue.submit(errand_in(lane, "one", &report, work)).unwrap();
         assert_eq!(reports.recv().unwrap(), [expected, expected].join(" "));

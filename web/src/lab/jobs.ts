@@ -19,7 +19,7 @@ export const leftWords = (left_s: number): string => `about ${roughly(left_s)} l
 
 /** `waits for 2 jobs before it, about 4 min`. */
 export function waitWords(job: JobSummary | undefined): string {
-  if (!job || job.stage !== 'waiting') return 'waits';
+  if (job?.stage !== 'waiting') return 'waits';
   const { before, starts_in_s } = job;
   if (before === 0) return 'begins';
   const time = starts_in_s === null || starts_in_s < 1 ? '' : `, about ${roughly(starts_in_s)}`;

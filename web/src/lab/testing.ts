@@ -7,7 +7,6 @@ import type {
   MomentMessage,
   SceneMessage,
   StateMessage,
-  JobSummary,
   TrainingSummary,
 } from '../net/protocol.gen';
 
@@ -283,25 +282,5 @@ export function lumenOf(
       along_m: ring.map(([x_m]) => x_m),
       limit_m: ring.map(() => limit_m),
     })),
-  };
-}
-
-export function jobOf(change: Partial<JobSummary> = {}): JobSummary {
-  return {
-    id: 'training-1',
-    kind: 'training',
-    name: 'my-posts',
-    owner: 'main',
-    lane: 'long',
-    stage: 'running',
-    message: null,
-    before: 0,
-    starts_in_s: null,
-    share: 0.25,
-    estimate_s: 240,
-    left_s: 180,
-    can_pause: true,
-    has_results: true,
-    ...change,
   };
 }

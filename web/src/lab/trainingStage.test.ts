@@ -8,7 +8,8 @@ import {
   stageSentence,
   updateWords,
 } from './trainingStage';
-import { jobOf, trainingOf } from './testing';
+import { trainingOf } from './testing';
+import { jobOf } from './testingJobs';
 
 const EXAMINED = {
   episodes: 1000,

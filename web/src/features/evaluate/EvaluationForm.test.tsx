@@ -16,7 +16,7 @@ async function open(answer: (query: EvaluationQuery) => unknown) {
     'POST /api/evaluations': (body) => answer(JSON.parse(body) as EvaluationQuery),
   });
   const started: string[] = [];
-  show(() => <EvaluationForm lab={lab} measured={[]} onStarted={(id) => started.push(id)} />);
+  show(() => <EvaluationForm lab={lab} onStarted={(id) => started.push(id)} />);
   server.lists({ maps: ['posts', 'colon'] });
   await expect.element(box('posts')).toBeVisible();
   await expect.element(run).toBeEnabled();

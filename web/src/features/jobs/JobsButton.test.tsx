@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import { page } from 'vitest/browser';
-import { jobOf } from '../../lab/testing';
+import { jobOf } from '../../lab/testingJobs';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
 import { JobsButton } from './JobsButton';
 

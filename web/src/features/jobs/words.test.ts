@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { jobOf } from '../../lab/testing';
+import { jobOf } from '../../lab/testingJobs';
 import { groupsOf, nameOf, ownerWords, stageWords } from './words';
 
 it('says how far a job is, and what it waits for', () => {

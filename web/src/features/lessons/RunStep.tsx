@@ -5,6 +5,7 @@ import { For, Show, type JSX } from 'solid-js';
 import { CommandButton } from '../../lab/CommandButton';
 import type { Events, Session, Trial } from '../../lab/slices';
 import { trackedWords } from '../../lab/tracked';
+import { jobOf } from '../../lab/jobs';
 import { isActive, stageSentence, updateWords } from '../../lab/trainingStage';
 import type { TrainingSummary } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';

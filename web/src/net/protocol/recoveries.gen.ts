@@ -1,7 +1,7 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-import type { JobStage } from './jobs.gen';
 import type { ControllerName } from './experiment.gen';
+import type { JobStage } from './jobs.gen';
 
 /**
  * How the trials of a recovery map are disturbed.
