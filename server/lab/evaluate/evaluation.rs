@@ -2,14 +2,18 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::evaluations::work_of;
 use super::variation::applied;
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
 use crate::jobs::{Life, Paces, Ticket};
 use crate::program::Program;
 use ferry_core::map::Map;
 use ferry_core::policy::Policies;
-use ferry_core::scenario::{Parameters, SetError};
+use ferry_core::scenario::{ControllerName, Parameters, SetError};
+
+/// The kind of work of a controller's trials, for their pace.
+pub(super) fn work_of(controller: ControllerName) -> String {
+    format!("evaluation_{}", controller.as_str())
+}
 
 #[derive(Debug)]
 pub struct Evaluation {

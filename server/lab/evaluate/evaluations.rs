@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::evaluation::work_of;
 use super::{Cell, Evaluation, EvaluationQuery, QueryError};
 use crate::changes::Changes;
 use crate::jobs::{Lane, Queue, QueueError, Shelf, Ticket};
@@ -13,11 +14,6 @@ use ferry_core::trial::Catalog;
 const SHORT_TRIALS: u32 = 30;
 /// First guess of the time of a trial: with a software graphics driver on two cores.
 const GUESS_S: f64 = 1.0;
-
-/// The kind of work of a controller's trials, for their pace.
-pub(super) fn work_of(controller: ControllerName) -> String {
-    format!("evaluation_{}", controller.as_str())
-}
 
 /// Why an evaluation is rejected.
 #[derive(Debug, thiserror::Error)]

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::sync::{Arc, PoisonError};
 use std::time::Instant;
 
-use super::evaluations::work_of;
+use super::evaluation::work_of;
 use super::{CellResult, EvaluateError, Evaluation, Progress, VariationError, Venue, Watch, run_trials, unrecorded};
 use crate::jobs::{Life, Shelved, Stage, Ticket, Workshop};
 use ferry_core::map::MapError;

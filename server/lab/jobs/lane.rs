@@ -42,7 +42,7 @@ impl Lane {
     }
 }
 
-/// What is known of a job from its start.
+/// The facts of a job that do not change.
 #[derive(Clone, Debug)]
 pub struct Ticket {
     /// The session that started it; `None`: a program did.

@@ -3,7 +3,16 @@
 import { test } from '@playwright/test';
 import type { Lab } from '../support/lab';
 import { TRAIN_MS, clearTrainings, reachStage, startTraining } from '../support/trainings';
-import { type Row, type Section, downloads, isChecked, isPressed, valueOf, view } from './row';
+import {
+  type Row,
+  type Section,
+  downloads,
+  expanded,
+  isChecked,
+  isPressed,
+  valueOf,
+  view,
+} from './row';
 
 const originOf = (lab: Lab) => new URL(lab.page.url()).origin;
 
@@ -56,6 +65,10 @@ export const TRAIN: Section = {
     'link Train': {
       see: (lab) => lab.page.locator('main.train').count(),
       ready: view('Evaluate'),
+    },
+    'button /^Jobs: /': { see: expanded, isToggle: true },
+    'button /^Show (Evaluation|Recovery map|Training|Comparison) /': {
+      elsewhere: 'lists a recovery map beside a training, pauses it and cancels the training',
     },
     'button New training': { see: forms },
     'button Close the form': { see: forms, ready: openForm },
