@@ -73,9 +73,7 @@ impl Ferry {
 
     async fn socket(&self, session: &str) -> Socket {
         ureq::get(format!("http://{}/s/{session}", self.address)).call().unwrap();
-        let mut socket = connect_async(format!("ws://{}/api/sessions/{session}/live", self.address)).await.unwrap().0;
-        tell(&mut socket, json!({"type": "load_scenario", "map": "posts", "controller": "attractor", "start_m": [-0.25, -0.38], "goal_m": [0.12, -0.33]})).await;
-        socket
+        connect_async(format!("ws://{}/api/sessions/{session}/live", self.address)).await.unwrap().0
     }
 
     fn missed(&self) -> f64 {
@@ -102,6 +100,15 @@ async fn message(socket: &mut Socket, fits: impl Fn(&Value) -> bool) -> Value {
             return message;
         }
     }
+}
+
+/// A session with a goal.
+async fn load(ferry: &Ferry, session: &str) -> Socket {
+    let mut socket = ferry.socket(session).await;
+    let scenario = json!({"type": "load_scenario", "map": "posts", "controller": "attractor", "start_m": [-0.25, -0.38],
+        "goal_m": [0.12, -0.33]});
+    tell(&mut socket, scenario).await;
+    socket
 }
 
 /// How long a round took, in seconds.
@@ -135,8 +142,10 @@ async fn during<T>(live: &mut Socket, other: impl Future<Output = T>) -> (T, Vec
     }
 }
 
-async fn round(ferry: &Ferry, main: &mut Socket, live: &mut Socket) -> Round {
+async fn round(ferry: &Ferry, live: &mut Socket) -> Round {
     let missed = ferry.missed();
+    // A connection that reads nothing between two rounds would be closed.
+    let main = &mut ferry.socket("main").await;
     let query = json!({"session": "main", "tick": 250, "kind": "push", "grid": 5, "repeats": 1,
         "controllers": ["rl", "errt", "attractor"]});
     let jobs = async {
@@ -179,10 +188,11 @@ fn p99(mut values: Vec<f64>) -> f64 {
 #[tokio::main]
 async fn main() -> ExitCode {
     let ferry = Ferry::start();
-    let mut main = ferry.socket("main").await;
+    let mut main = load(&ferry, "main").await;
     tell(&mut main, json!({"type": "step", "ticks": 250})).await;
     message(&mut main, |m| m["type"] == "state" && m["tick"] == 250).await;
-    let mut live = ferry.socket("live").await;
+    drop(main);
+    let mut live = load(&ferry, "live").await;
     tell(&mut live, json!({"type": "run"})).await;
     let query = json!({"map": "colon", "name": "beside", "seed": 1, "settings": {"updates": 20_000}});
     let training = ferry.post("/api/trainings", &query)["id"].as_str().unwrap().to_owned();
@@ -192,19 +202,19 @@ async fn main() -> ExitCode {
         ferry.until(&training, |job| job["stage"] == stage).await;
     };
     // The devices of the short lane and of the comparisons open before anything is measured.
-    round(&ferry, &mut main, &mut live).await;
+    round(&ferry, &mut live).await;
     let (mut alone, mut beside, mut idle_ms, mut idle_missed) = (Vec::new(), Vec::new(), Vec::new(), 0.0);
     for pair in 0..PAIRS {
         during(&mut live, switch("pause", "paused")).await;
         let before = ferry.missed();
         idle_ms.extend(during(&mut live, tokio::time::sleep(IDLE)).await.1);
         idle_missed += ferry.missed() - before;
-        alone.push(round(&ferry, &mut main, &mut live).await);
+        alone.push(round(&ferry, &mut live).await);
         during(&mut live, switch("resume", "running")).await;
         let updates = |job: &Value| job["share"].as_f64();
         let from = ferry.job(&training);
         during(&mut live, ferry.until(&training, |job| updates(job) > updates(&from))).await;
-        beside.push(round(&ferry, &mut main, &mut live).await);
+        beside.push(round(&ferry, &mut live).await);
         for (name, round) in [("alone ", alone.last()), ("beside", beside.last())] {
             let Some(Round { first_trial, first_branch, recovery, comparison, missed, gaps_ms }) = round else {
                 continue;
