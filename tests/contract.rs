@@ -11,13 +11,16 @@ use serde_json::{Value, json};
 use crate::support::{Browser, Ferry, ferry, tool};
 
 /// Operations that never succeed here: a plain request cannot become a WebSocket, no token is set, and generated text is not
-/// a map or a policy (`leases` and `trainings` upload them).
-const NEVER_ACCEPTED: [&str; 9] = [
+/// a map or a policy (`leases` and `trainings` upload them). The job that is asked for has ended (`jobs` pauses some).
+const NEVER_ACCEPTED: [&str; 12] = [
+    "DELETE /api/jobs/{id}",
     "DELETE /api/maps/{name}",
     "GET /api/controllers/{name}",
     "GET /api/sessions/{id}/attempt",
     "GET /api/sessions/{id}/live",
     "POST /api/challenges/{name}/attempts",
+    "POST /api/jobs/{id}/pause",
+    "POST /api/jobs/{id}/resume",
     "POST /api/map-checks",
     "POST /api/maps",
     "POST /api/policies/{file}",
