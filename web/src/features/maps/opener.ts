@@ -23,7 +23,7 @@ export function createMapOpener(lab: Session & Trial & Notices) {
   const [isBusy, setBusy] = createSignal(false);
   const [added, setAdded] = createSignal<Added>();
   /** Of the shipped policies on the new map. */
-  const trials = createPolicyTrials(lab.catalog);
+  const trials = createPolicyTrials(lab.catalog, lab.session);
   const say = (text: string): void => {
     lab.notify('playback', text);
   };

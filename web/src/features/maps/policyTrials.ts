@@ -2,6 +2,7 @@
 
 import { createEffect, createMemo, createSignal } from 'solid-js';
 import type { Catalog } from '../../lab/catalog';
+import { startPath } from '../../lab/jobs';
 import type { EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
 import { reasonText } from '../../net/problem';
 import { post, remove } from '../../net/requests';
@@ -42,7 +43,8 @@ function outcomeOf({ id, refusal }: Started, all: readonly EvaluationSummary[]):
 export const solves = ({ outcome }: PolicyTrial): boolean =>
   outcome.kind === 'tried' && outcome.delivered === TRIALS;
 
-export function createPolicyTrials(catalog: Catalog) {
+/** `session` starts them. */
+export function createPolicyTrials(catalog: Catalog, session: string) {
   const [started, setStarted] = createSignal<readonly Started[]>([]);
   /** One that was trained on a single map knows no other. */
   const offered = (): readonly string[] =>
@@ -71,7 +73,8 @@ export function createPolicyTrials(catalog: Catalog) {
     const asked: readonly Started[] = [...before, { policy, id: undefined }];
     setStarted(asked);
     try {
-      const { id } = await post<EvaluationSummary>('/api/evaluations', JSON.stringify(query));
+      const path = startPath('/api/evaluations', session);
+      const { id } = await post<EvaluationSummary>(path, JSON.stringify(query));
       if (started() === asked) setStarted([...before, { policy, id }]);
       else await remove(`/api/evaluations/${id}`);
     } catch (reason) {
