@@ -113,6 +113,60 @@ async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
     lab.close().await;
 }
 
+/// What the page's button asks for. The share of all pairs of cells from which the policy reaches the goal, and the seconds
+/// from the request to the end.
+async fn toy(lab: &Laboratory, seed: u64) -> (f64, f64) {
+    let begun = Instant::now();
+    let asked = json!({"map": "toy", "name": format!("toy-{seed}"), "seed": seed, "recipe": "toy"});
+    let (status, made) = lab.ask("POST", "/api/trainings", &asked.to_string()).await;
+    assert_eq!(status, 201, "{made}");
+    let done = ended(lab, made["id"].as_str().unwrap()).await;
+    let spent_s = begun.elapsed().as_secs_f64();
+    let [episodes, reached] = ["episodes", "reached"].map(|name| done["examined"][name].as_f64().unwrap());
+    assert!(done["stage"] == "done" && done["examined"]["all_pairs"] == true, "{done}");
+    // Those within 2 cm of each other are left out.
+    assert!((2500.0..=60.0 * 59.0).contains(&episodes), "{episodes}");
+    println!("seed {seed}: {reached} of {episodes} pairs, {:.1} % in {spent_s:.1} s", 100.0 * reached / episodes);
+    (reached / episodes, spent_s)
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_toy_map_is_learned_and_examined_over_all_its_pairs() {
+    let lab = Laboratory::open().await;
+    let (share, _) = toy(&lab, 1).await;
+    assert!(share >= 0.9, "{share}");
+    let (_, cells) = lab.ask("GET", "/api/trainings/training-1/cells", "").await;
+    let count = cells["centers_m"].as_array().unwrap().len();
+    assert!((40..=60).contains(&count), "{count}");
+    if std::env::var_os("FERRY_GENERATE").is_some() {
+        keep_finished(&lab, cells).await;
+    }
+    lab.close().await;
+}
+
+/// Writes the finished training that the page plays while another one computes.
+async fn keep_finished(lab: &Laboratory, cells: Value) {
+    let (_, report) = lab.ask("GET", "/api/trainings/training-1", "").await;
+    let mut frames = Vec::new();
+    for index in 0..report["frames"].as_u64().unwrap() {
+        frames.push(lab.ask("GET", &format!("/api/trainings/training-1/frames/{index}"), "").await.1);
+    }
+    let kept = json!({"query": report["query"], "examined": report["examined"], "cells": cells, "frames": frames});
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/features/train/finished.json");
+    std::fs::write(path, format!("{kept}\n")).unwrap();
+}
+
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "long"]
+async fn five_seeds_learn_the_toy_map() {
+    let lab = Laboratory::open().await;
+    for seed in 11..=15 {
+        let (share, _) = toy(&lab, seed).await;
+        assert!(share >= 0.9, "seed {seed}: {share}");
+    }
+    lab.close().await;
+}
+
 /// A small policy: its weights do not matter here.
 fn file(seed: u64) -> Vec<u8> {
     let bytes = Policy::shipped_bytes("colon").unwrap();

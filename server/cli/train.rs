@@ -46,8 +46,8 @@ pub struct Arguments {
     /// Number of runs with consecutive seeds, for the paper's learning figure
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=100))]
     rounds: u64,
-    /// Recipe from which the settings start: quick (one map in minutes), full (the shipped policies) or paper (its reward,
-    /// fusion and returns)
+    /// Recipe from which the settings start: quick (one map in minutes), full (the shipped policies), paper (its reward,
+    /// fusion and returns) or toy (a map of 60 cells in seconds)
     #[arg(long, default_value = "full", conflicts_with = "paper")]
     recipe: RecipeName,
     /// The same as --recipe paper
@@ -59,7 +59,7 @@ pub struct Arguments {
     /// Set a number of the recipe, for example n_step=3 or architecture.dueling=false
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Random starts and goals of the final examination
+    /// Random starts and goals of the final examination; a map of at most 63 cells is examined over all its pairs
     #[arg(long, default_value_t = 2000, value_parser = super::within(1..=1_000_000))]
     episodes: u32,
     /// Folder for image sweeps
@@ -214,13 +214,12 @@ fn message(state: &State, steps_per_s: f64, updates_per_s: f64) -> String {
 }
 
 fn describe(marks: &Marks) -> String {
-    let [low, high] = ferry_lab::evaluate::wilson95(marks.reached, marks.episodes);
+    let [low, high] = ferry_lab::evaluate::wilson95(marks.reached, marks.episodes).map(|share| 100.0 * share);
+    let range = if marks.all_pairs { "all pairs of cells".to_owned() } else { format!("{low:.2} % to {high:.2} %") };
     format!(
-        "{}/{} reached ({:.2} % to {:.2} %), {} collided, {} out of steps, {:.1} steps, {:.1} on the shortest path",
+        "{}/{} reached ({range}), {} collided, {} out of steps, {:.1} steps, {:.1} on the shortest path",
         marks.reached,
         marks.episodes,
-        100.0 * low,
-        100.0 * high,
         marks.collided,
         marks.timed_out,
         f64::from(marks.steps) / f64::from(marks.reached.max(1)),

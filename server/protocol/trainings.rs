@@ -28,7 +28,7 @@ pub enum TrainingStage {
     Failed,
 }
 
-/// Episodes with random starts and goals, without exploration.
+/// Episodes without exploration, with random starts and goals; on a map of at most 63 cells, with all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Examination {
     pub episodes: u32,
@@ -41,6 +41,8 @@ pub struct Examination {
     /// Wilson 95 % interval of `reached / episodes`.
     #[schema(value_type = Numbers2)]
     pub reached_wilson95: [f64; 2],
+    /// Whether the episodes are all pairs of a start and a goal, each once: then there is nothing left to estimate.
+    pub all_pairs: bool,
 }
 
 /// A hundred updates of a training.
@@ -89,7 +91,7 @@ pub struct TrainingSummary {
     pub elapsed_s: f64,
     /// Estimated time until its end, while it learns.
     pub left_s: Option<f64>,
-    /// The last examination, of 1000 episodes; before the end, the newest small one.
+    /// The last examination, of 1000 episodes or all pairs; before the end, the newest small one.
     pub examined: Option<Examination>,
     /// Rank correlation between values and distances to the goal of the value maps, of the newest one.
     pub rank_correlation: Option<f64>,
@@ -159,8 +161,8 @@ fn rounded(value: f32) -> f32 {
 }
 
 impl From<&Marks> for Examination {
-    fn from(&Marks { episodes, reached, collided, timed_out, .. }: &Marks) -> Self {
-        Self { episodes, reached, collided, timed_out, reached_wilson95: wilson95(reached, episodes) }
+    fn from(&Marks { episodes, reached, collided, timed_out, all_pairs, .. }: &Marks) -> Self {
+        Self { episodes, reached, collided, timed_out, reached_wilson95: wilson95(reached, episodes), all_pairs }
     }
 }
 

@@ -26,7 +26,7 @@ const EXAMINED_EVERY: u64 = 1000;
 /// Episodes of a small examination.
 const EXAMINED_EPISODES: u32 = 200;
 /// Version of the checkpoint's layout.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// The complete state of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

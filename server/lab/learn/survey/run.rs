@@ -25,7 +25,7 @@ use ferry_core::policy::{Action, Manifest, Network, Policy};
 /// Updates between two small examinations, on mazes of the trained families.
 const EXAMINED_EVERY: u64 = 1000;
 /// Version of the checkpoint's layout.
-const VERSION: u32 = 100;
+const VERSION: u32 = 101;
 
 /// The complete state of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

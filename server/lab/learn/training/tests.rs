@@ -172,7 +172,7 @@ fn a_small_run_learns_the_path_between_two_rooms() {
         state.advance(&terrains, &|| true, &mut |_| true).unwrap();
         let trained = state.examine(&terrains, GoalSet::All, EPISODES, 9).unwrap();
         let ended = trained.reached + trained.collided + trained.timed_out;
-        assert_eq!((trained.episodes, ended), (EPISODES, EPISODES));
+        assert!(trained.all_pairs && trained.episodes == ended && ended > 400, "{trained:?}");
         // Of six seeds the worst reached 77 %, these two 99 % and more; random steps reach 15 %. Other processors
         // round differently, and runs this short can differ because of it.
         assert!(trained.success() > 0.6 && random.success() < 0.25, "{trained:?} {random:?}");
