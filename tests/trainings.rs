@@ -152,8 +152,10 @@ async fn keep_finished(lab: &Laboratory, cells: Value) {
         frames.push(lab.ask("GET", &format!("/api/trainings/training-1/frames/{index}"), "").await.1);
     }
     let kept = json!({"query": report["query"], "examined": report["examined"], "cells": cells, "frames": frames});
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/features/train/finished.json");
-    std::fs::write(path, format!("{kept}\n")).unwrap();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/features/train/finished.gen.ts");
+    let head =
+        "// Generated from a training of the map toy. Do not edit.\n\nimport type { Finished } from './finished';\n";
+    std::fs::write(path, format!("{head}\n// prettier-ignore\nexport const FINISHED: Finished = {kept};\n")).unwrap();
 }
 
 #[tokio::test(flavor = "multi_thread")]

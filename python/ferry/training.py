@@ -25,7 +25,7 @@ def train(
     folder: str | PathLike[str],
     *,
     seeds: Sequence[int] = (1,),
-    recipe: Literal["quick", "full", "paper"] = "full",
+    recipe: Literal["quick", "full", "paper", "toy"] = "full",
     settings: Mapping[str, Any] | None = None,
     episodes: int = 2000,
     engine: Literal["ray"] | None = None,

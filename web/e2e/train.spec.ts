@@ -99,6 +99,64 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   );
 });
 
+/** Presses the button, and waits for the end. Seconds from the press, and the share of all pairs. */
+async function learnToy(lab: Lab, name: string) {
+  const pressed_ms = Date.now();
+  await lab.button('Watch it learn (15 s)').click();
+  await expect(entry(lab, name)).toBeVisible();
+  await lab.page.locator('.train-canvas[data-update]').waitFor({ timeout: TRAIN_MS });
+  const first_s = (Date.now() - pressed_ms) / 1000;
+  const sentence = entry(lab, name).getByText(/all pairs of cells/);
+  await expect(sentence).toBeVisible({ timeout: TRAIN_MS });
+  const spent_s = (Date.now() - pressed_ms) / 1000;
+  const [, reached, all] = must(/\((\d+) of (\d+)\)/.exec(await sentence.innerText()), 'counts');
+  const description = `${name}: ${reached} of ${all} pairs in ${spent_s} s, first values after ${first_s} s`;
+  test.info().annotations.push({ type: 'toy', description });
+  return { spent_s, share: Number(reached) / Number(all) };
+}
+
+test('learns the toy map while one watches', async ({ lab }) => {
+  const { page } = lab;
+  await lab.view('Train').click();
+  // Something to see before that.
+  const finished = page.getByRole('application', { name: /of a finished training$/ });
+  await lab.button('Play a finished training').click();
+  await expect(finished).toHaveAttribute('data-update', /^\d+$/);
+  await expect(page.getByText(/A finished training on the map toy, after \d+/)).toBeVisible();
+  await lab.button('Play a finished training').click();
+  await expect(finished).toHaveCount(0);
+  await expect(page.getByText('It gets the name my-toy; seed 1.')).toBeVisible();
+  const { share } = await learnToy(lab, 'my-toy');
+  expect(share).toBeGreaterThanOrEqual(0.9);
+  await expect(head(lab)).toContainText(/reaches the goal from \d+ % of all pairs of cells/);
+  await head(lab).getByRole('button', { name: 'Use it: my-toy' }).click();
+  await until('the map', () => lab.scene.map === 'toy' && lab.state.controller === 'rl');
+  await lab.reset({ map: 'posts' });
+  await lab.restoreDefaults();
+});
+
+test('learns the toy map with five seeds', LONG, async ({ lab }) => {
+  await lab.view('Train').click();
+  for (const name of ['my-toy', 'my-toy-2', 'my-toy-3', 'my-toy-4', 'my-toy-5']) {
+    if (name !== 'my-toy') await lab.button('New training').click();
+    const { share, spent_s } = await learnToy(lab, name);
+    expect(share, name).toBeGreaterThanOrEqual(0.9);
+    // Seconds on cores that do nothing else.
+    if (process.env.FERRY_IDLE) expect(spent_s, name).toBeLessThan(20);
+  }
+});
+
+test('plays a finished training while one’s own has no values yet', async ({ lab, server }) => {
+  const { page } = lab;
+  await startTraining(page.request, server.url, 'first', MORE_UPDATES);
+  await startTraining(page.request, server.url, 'second');
+  await lab.view('Train').click();
+  await expect(
+    page.getByText(/^Waits until first is finished. Meanwhile: A finished/),
+  ).toBeVisible();
+  await expect(plan(lab)).toHaveAccessibleName(/of a finished training$/);
+});
+
 test(
   'draws a maze, trains on it, uses the policy, and it delivers',
   LONG,

@@ -202,14 +202,14 @@ impl Recipe {
         Self { discount: 0.96, step_penalty: 0.1, updates: 10_000, ..Self::default() }
     }
 
-    /// For a map of at most 60 cells. Paths are short: the goal is felt everywhere with a small discount, and progress may
-    /// count more. Few images for an update, a large rate and a target that is copied often use the seconds best; half the
-    /// time of a larger recipe is the walk of its 32 lanes.
+    /// For a map of at most 60 cells. Its paths are short, so the goal is felt everywhere with a smaller discount, and
+    /// progress may count more. Few images for an update, few lanes, a large rate and a target that is copied often use
+    /// the seconds best.
     pub fn toy() -> Self {
         Self {
             discount: 0.8,
             progress_reward: 0.3,
-            step_penalty: 0.15,
+            step_penalty: 0.3,
             images: 6,
             exploration: 0.3,
             averaging: 0.98,

@@ -223,10 +223,10 @@ export const EXPERIMENTS: Section = {
   rowReady: openSetUp,
   after: showTabs,
   rows: {
-    'radio /^(attractor-example(-arm)?|colon(-folds)?|open|posts|u-turn|vessels)$/': {
+    'radio /^(attractor-example(-arm)?|colon(-folds)?|open|posts|toy|u-turn|vessels)$/': {
       see: (lab) => lab.scene.map,
       // The one after “posts”, so that the keyboard presses an arrow once.
-      act: (input) => input.pick(input.page.getByRole('radio', { name: 'u-turn', exact: true })),
+      act: (input) => input.pick(input.page.getByRole('radio', { name: 'toy', exact: true })),
       after: backToPosts,
     },
     'button Open SVG…': {

@@ -269,7 +269,7 @@ export const EVALUATE: Section = {
       [
         ...['RL', 'ERRT', 'Attractor'],
         ...['attractor-example', 'attractor-example-arm', 'colon', 'colon-folds', 'open'],
-        ...['posts', 'u-turn', 'vessels', '0', '3'],
+        ...['posts', 'toy', 'u-turn', 'vessels', '0', '3'],
       ].map((name) => [`checkbox ${name}`, box]),
     ),
     'combobox Policy of RL': {

@@ -144,6 +144,8 @@ export const TRAIN: Section = {
         ready: (lab) => lab.page.locator('.training-choose').last().click(),
       },
     'link /^Download /': { see: downloads },
+    'button Watch it learn (15 s)': { elsewhere: 'learns the toy map while one watches' },
+    'button Play a finished training': { elsewhere: 'learns the toy map while one watches' },
     'button /^Train ./': { elsewhere: 'trains a policy, watches it and uses it' },
     'summary /^How .* was trained$/': { elsewhere: 'trains a policy, watches it and uses it' },
     'summary How to read it': {

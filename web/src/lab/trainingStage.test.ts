@@ -17,6 +17,7 @@ const EXAMINED = {
   collided: 10,
   timed_out: 4,
   reached_wilson95: [0.977, 0.992] as [number, number],
+  all_pairs: false,
 };
 
 describe('a training', () => {
@@ -43,6 +44,11 @@ describe('a training', () => {
     expect(stageSentence(done, undefined)).toContain(
       '986 of 1000 episodes with random starts and goals',
     );
+    const pairs = { ...EXAMINED, episodes: 3116, reached: 3115, all_pairs: true };
+    expect(stageSentence({ ...done, examined: pairs }, undefined)).toBe(
+      'It reaches the goal from 99 % of all pairs of cells (3115 of 3116).',
+    );
+    expect(intervalWords(pairs)).toBe('on all pairs');
     expect(stageSentence(trainingOf({ stage: 'failed', message: 'No GPU.' }), undefined)).toBe(
       'No GPU.',
     );

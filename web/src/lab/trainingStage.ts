@@ -48,18 +48,25 @@ export function stageSentence(summary: TrainingSummary, job: JobSummary | undefi
     case 'learning':
       return learningSentence(summary);
     case 'examination':
-      return 'The last examination: 1000 episodes with random starts and goals.';
+      return 'The last examination: many starts and goals, without random steps.';
     case 'paused':
       return `Paused after ${counted(summary.updates, 'update')}.`;
     case 'done':
-      return summary.examined
-        ? `${shareWords(summary.examined)} episodes with random starts and goals reached the goal.`
-        : 'The policy can be used.';
+      return summary.examined ? examinedSentence(summary.examined) : 'The policy can be used.';
     case 'cancelled':
       return `Cancelled after ${counted(summary.updates, 'update')}.`;
     case 'failed':
       return summary.message ?? 'It failed for an unknown reason.';
   }
+}
+
+function examinedSentence(examined: Examination): string {
+  const share = shareWords(examined);
+  if (!examined.all_pairs)
+    return `${share} episodes with random starts and goals reached the goal.`;
+  // 100 % only if it is all of them.
+  const percent = Math.floor((100 * examined.reached) / examined.episodes);
+  return `It reaches the goal from ${percent} % of all pairs of cells (${share}).`;
 }
 
 function learningSentence({ left_s, episodes }: TrainingSummary): string {
@@ -77,7 +84,9 @@ export function progressWords(summary: TrainingSummary): string {
 }
 
 /** `95 % interval: 97.7 to 99.2 %`. */
-export function intervalWords({ reached_wilson95: [low, high] }: Examination): string {
+export function intervalWords({ all_pairs, reached_wilson95 }: Examination): string {
+  if (all_pairs) return 'on all pairs';
+  const [low, high] = reached_wilson95;
   return `95 % interval: ${fixed(100 * low, 1)} to ${fixed(100 * high, 1)} %`;
 }
 

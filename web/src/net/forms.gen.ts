@@ -18,6 +18,7 @@ export const RECIPES = [
   { name: "quick", label: 'Quick', help: 'Learns one map in minutes.', settings: {"discount":0.96,"exploration":0.05,"fusion":"late","learning_rate":0.001,"n_step":1,"noisy":true,"progress_reward":0.1,"step_penalty":0.1,"updates":10000} },
   { name: "full", label: 'Full', help: 'That of the shipped policies. It takes half as long again.', settings: {"discount":0.9,"exploration":0.05,"fusion":"late","learning_rate":0.001,"n_step":1,"noisy":true,"progress_reward":0.1,"step_penalty":0.0,"updates":12000} },
   { name: "paper", label: 'Paper', help: 'Rewards, fusion and returns of the paper: slower to learn.', settings: {"discount":0.99,"exploration":0.0,"fusion":"early","learning_rate":0.0001,"n_step":3,"noisy":true,"progress_reward":0.0,"step_penalty":0.0,"updates":12000} },
+  { name: "toy", label: 'Toy', help: 'Learns the map toy in 15 seconds. Larger maps need another recipe.', settings: {"discount":0.8,"exploration":0.3,"fusion":"late","learning_rate":0.003,"n_step":1,"noisy":true,"progress_reward":0.3,"step_penalty":0.3,"updates":1000} },
 ] as const;
 
 /** The numbers of an evaluation. */

@@ -100,4 +100,4 @@ export const CONTROLLER_LABELS = {
 export const CONTROLLERS = ['rl', 'errt', 'attractor'] as const;
 
 /** Maps that every server has. */
-export const SHIPPED_MAPS: readonly string[] = ['attractor-example', 'attractor-example-arm', 'colon', 'colon-folds', 'open', 'posts', 'u-turn', 'vessels'];
+export const SHIPPED_MAPS: readonly string[] = ['attractor-example', 'attractor-example-arm', 'colon', 'colon-folds', 'open', 'posts', 'toy', 'u-turn', 'vessels'];

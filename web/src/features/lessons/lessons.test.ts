@@ -29,6 +29,7 @@ const examined = (reached: number): Examination => ({
   collided: 0,
   timed_out: 1000 - reached,
   reached_wilson95: [0, 1],
+  all_pairs: false,
 });
 
 const GOAL_M = [0.2, -0.36] as const;

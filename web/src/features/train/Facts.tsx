@@ -23,6 +23,8 @@ export function Facts(props: {
     if (last) return shareWords(last.examined);
     return isActive(props.summary) ? 'not examined yet' : '–';
   };
+  const goals = (): string =>
+    newest()?.examined.all_pairs ? 'All pairs of cells' : 'Random starts and goals';
   const correlation = (): string => {
     const value = props.frame?.rank_correlation ?? null;
     return value === null ? '–' : fixed(value, 3);
@@ -31,7 +33,7 @@ export function Facts(props: {
     <>
       <dl class="facts">
         <Fact name="This goal: starts that reach it" value={starts()} testid="train-starts" />
-        <Fact name="Random starts and goals" value={examined()} testid="train-examined" />
+        <Fact name={goals()} value={examined()} testid="train-examined" />
         <Fact name="Rank correlation" value={correlation()} testid="train-correlation" />
       </dl>
       <p class="rule">

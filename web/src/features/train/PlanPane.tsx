@@ -5,15 +5,26 @@ import { checkOfMap } from '../../lab/maps';
 import { isActive, progressWords } from '../../lab/trainingStage';
 import type { MapCheck } from '../../net/protocol.gen';
 import { createAttempt } from '../../ui/attempt';
-import { layers, setPlace } from './state';
+import { FinishedPlan } from './FinishedPlan';
+import { layers, playsFinished, setPlace } from './state';
 import { TrainingPlan } from './TrainingPlan';
 import type { Watch } from './watch';
 
 /** Id of the text that describes the plans. */
 export const HELP_ID = 'train-help';
 
-/** The walls of a map before its first training. */
-export function MapPane(props: { map: string }): JSX.Element {
+/** Before the first training: the walls of its map, or a finished training. */
+export function FirstPane(props: { map: string }): JSX.Element {
+  return (
+    <Show when={playsFinished()} fallback={<MapPane map={props.map} />}>
+      <section class="train-pane" aria-label="A finished training">
+        <FinishedPlan before="" />
+      </section>
+    </Show>
+  );
+}
+
+function MapPane(props: { map: string }): JSX.Element {
   const [map, setMap] = createSignal<MapCheck>();
   const { attempt } = createAttempt();
   createEffect(() => {
@@ -41,6 +52,9 @@ export function PlanPane(props: {
     isActive(watch.summary())
       ? `${props.sentence} The first value map comes with the first updates.`
       : 'This training has no value maps.';
+  /** The toy's first value map comes at once. */
+  const isEarly = (): boolean =>
+    watch.count() === 0 && isActive(watch.summary()) && query().recipe !== 'toy';
   return (
     <section class="train-pane" aria-label={query().name}>
       <Show when={props.isNamed}>
@@ -51,19 +65,21 @@ export function PlanPane(props: {
           </span>
         </h3>
       </Show>
-      <TrainingPlan
-        label={`Plan of ${query().map} with the values of ${query().name}`}
-        helpId={HELP_ID}
-        map={watch.map()}
-        cells={watch.cells()}
-        frame={watch.frame()}
-        range={props.range}
-        layers={layers()}
-        chosen={watch.cell()}
-        onChoose={setPlace}
-      />
-      <Show when={watch.count() === 0}>
-        <p class="train-veil">{empty()}</p>
+      <Show when={!isEarly()} fallback={<FinishedPlan before={`${props.sentence} Meanwhile:`} />}>
+        <TrainingPlan
+          label={`Plan of ${query().map} with the values of ${query().name}`}
+          helpId={HELP_ID}
+          map={watch.map()}
+          cells={watch.cells()}
+          frame={watch.frame()}
+          range={props.range}
+          layers={layers()}
+          chosen={watch.cell()}
+          onChoose={setPlace}
+        />
+        <Show when={watch.count() === 0}>
+          <p class="train-veil">{empty()}</p>
+        </Show>
       </Show>
       <p class="refusal train-veil" role="alert">
         {watch.error()}

@@ -24,6 +24,7 @@ import {
   SETTINGS,
   settingText,
   suggestedName,
+  takenNames,
 } from './recipes';
 import { change, choose, compare, draft, edits } from './state';
 import { startTraining } from './trainings';
@@ -34,6 +35,8 @@ export const mapOf = (lab: Session & Trial): string =>
 
 export function StartPanel(props: {
   lab: Session & Trial;
+  /** Whether its button is the primary one. */
+  isPrimary: boolean;
   /** The new training is shown. */
   onStarted: () => void;
 }): JSX.Element {
@@ -41,13 +44,7 @@ export function StartPanel(props: {
   let folded!: HTMLDetailsElement;
   const maps = (): readonly string[] => lab.catalog.maps() ?? [];
   const map = createMemo(() => mapOf(lab));
-  const name = createMemo(() => {
-    const taken = [
-      ...(lab.catalog.policies() ?? []).map((policy) => policy.name),
-      ...(lab.catalog.trainings() ?? []).map(({ query }) => query.name),
-    ];
-    return draft().name ?? suggestedName(map(), taken);
-  });
+  const name = createMemo(() => draft().name ?? suggestedName(map(), takenNames(lab.catalog)));
   const starts = (): readonly Option[] => [
     ['', 'random weights'],
     ...(lab.catalog.policies() ?? [])
@@ -76,6 +73,7 @@ export function StartPanel(props: {
       byButtonOnly
       send={start}
       button="Train"
+      buttonClass={props.isPrimary ? 'primary' : ''}
       buttonName={`Train ${name()}`}
       disabled={!lab.canOperate()}
       why="Only the operator can start and change trainings."

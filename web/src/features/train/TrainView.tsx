@@ -13,7 +13,6 @@ import type {
   TrainingReport,
   TrainingSummary,
 } from '../../net/protocol.gen';
-import { CloseButton } from '../../ui/CloseButton';
 import { ForKeyed } from '../../ui/ForKeyed';
 import { Icon } from '../../ui/Icon';
 import { ScaleBar } from '../../ui/ScaleBar';
@@ -26,12 +25,23 @@ import { Curves } from './Curves';
 import { withLast } from './curves';
 import { Dock } from './Dock';
 import { Facts } from './Facts';
-import { FoldedIntro, Intro } from './Intro';
-import { HELP_ID, MapPane, PlanPane } from './PlanPane';
+import { FoldedIntro } from './Intro';
+import { NewTraining } from './NewTraining';
+import { FirstPane, HELP_ID, PlanPane } from './PlanPane';
 import { PoliciesPanel } from './PoliciesPanel';
 import { policyOf } from './policyUse';
-import { mapOf, StartPanel } from './StartPanel';
-import { choose, chosen, compare, compared, hasCurves, isNew, setNew } from './state';
+import { mapOf } from './StartPanel';
+import {
+  choose,
+  chosen,
+  compare,
+  compared,
+  hasCurves,
+  isNew,
+  playsFinished,
+  setNew,
+  setPlaysFinished,
+} from './state';
 import { TrainingEntry } from './TrainingEntry';
 import { TrainingHead } from './TrainingHead';
 import { Marks, Readings, ValueScale } from './TrainLegend';
@@ -94,12 +104,14 @@ export default function TrainView(props: {
     },
   );
   const watches = createMemo(() => made().filter((one) => one !== undefined));
-  const isForm = (): boolean => isNew() || all().length === 0;
+  const isFirstVisit = (): boolean => all().length === 0;
+  const isForm = (): boolean => isNew() || isFirstVisit();
   let entries: HTMLUListElement | undefined;
   let form: HTMLElement | undefined;
   let newButton: HTMLButtonElement | undefined;
   const closeForm = (): void => {
     setNew(false);
+    setPlaysFinished(false);
     newButton?.focus();
   };
   const details = (): JSX.Element => (
@@ -189,7 +201,7 @@ export default function TrainView(props: {
       class="train"
       map={
         <div class="train-panes" data-count={watches().length}>
-          <For each={watches()} fallback={<MapPane map={mapOf(lab)} />}>
+          <For each={watches()} fallback={<FirstPane map={mapOf(lab)} />}>
             {(watch) => (
               <PlanPane
                 watch={watch}
@@ -203,7 +215,7 @@ export default function TrainView(props: {
       }
       over={
         <p class="about">
-          <Show when={watches().length > 0}>
+          <Show when={watches().length > 0 || playsFinished()}>
             What the policy expects from each place: the sum of all later rewards on the route to
             the goal.
           </Show>
@@ -212,7 +224,12 @@ export default function TrainView(props: {
       under={
         <>
           <p id={HELP_ID} class="train-help">
-            <Show when={watches().length > 0} fallback="The map of the new training.">
+            <Show
+              when={watches().length > 0}
+              fallback={
+                playsFinished() ? 'It plays again and again.' : 'The map of the new training.'
+              }
+            >
               {IS_TOUCH ? 'Tap a cell' : 'Click a cell, or use the arrow keys on the plan,'} to see
               how its value changed.
             </Show>
@@ -231,18 +248,12 @@ export default function TrainView(props: {
           {/* With the list, so that nothing moves when that arrives. */}
           <Show when={lab.catalog.trainings()}>
             <Show when={isForm()} fallback={details()}>
-              <section ref={form}>
-                <header>
-                  <h2>{all().length === 0 ? 'Train a policy of your own' : 'New training'}</h2>
-                  <Show when={all().length > 0}>
-                    <CloseButton label="Close the form" onClose={closeForm} />
-                  </Show>
-                </header>
-                <Show when={all().length === 0}>
-                  <Intro />
-                </Show>
-                <StartPanel lab={lab} onStarted={closeForm} />
-              </section>
+              <NewTraining
+                onForm={(part) => (form = part)}
+                lab={lab}
+                isFirst={isFirstVisit()}
+                onClose={closeForm}
+              />
             </Show>
             <PoliciesPanel lab={lab} onUse={use} />
           </Show>

@@ -9,7 +9,11 @@ const LEAST_SPAN = 0.3;
 export function colourRange(
   trainings: readonly Pick<TrainingSummary, 'value_range'>[],
 ): readonly [number, number] | undefined {
-  const ends = trainings.flatMap(({ value_range }) => value_range ?? []);
+  return rangeOf(trainings.flatMap(({ value_range }) => value_range ?? []));
+}
+
+/** A range around values; undefined without any. */
+export function rangeOf(ends: readonly number[]): readonly [number, number] | undefined {
   if (ends.length === 0) return undefined;
   const [least, greatest] = [Math.min(...ends), Math.max(...ends)];
   const room = Math.max(0, (LEAST_SPAN - (greatest - least)) / 2);

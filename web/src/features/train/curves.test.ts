@@ -20,6 +20,7 @@ const kind = (id: string) => {
 const EXAMINED = {
   ...{ episodes: 200, reached: 100, collided: 100, timed_out: 0 },
   reached_wilson95: [0.43, 0.57] as [number, number],
+  all_pairs: false,
 };
 
 describe('the values', () => {

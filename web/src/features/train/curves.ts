@@ -64,16 +64,14 @@ export const KINDS: readonly Kind[] = [
     ...SHARE,
     id: 'examination',
     title: 'Reached in examinations',
-    values: ({ examined }) =>
-      examined
-        ? [
-            100 * examined.reached_wilson95[1],
-            100 * examined.reached_wilson95[0],
-            (100 * examined.reached) / examined.episodes,
-          ]
-        : [null, null, null],
+    values: ({ examined }) => {
+      if (!examined) return [null, null, null];
+      const share = examined.reached / examined.episodes;
+      const [low, high] = examined.all_pairs ? [share, share] : examined.reached_wilson95;
+      return [100 * high, 100 * low, 100 * share];
+    },
     intervals: 'both',
-    help: 'Without random steps, with random starts and goals. Bar: the 95 % interval.',
+    help: 'Without random steps, with random starts and goals (bar: the 95 % interval) or all of a tiny map.',
   },
 ];
 

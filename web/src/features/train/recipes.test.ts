@@ -9,6 +9,7 @@ import {
   SETTINGS,
   settingText,
   suggestedName,
+  toyQuery,
   changedSettings,
   type SettingName,
 } from './recipes';
@@ -69,6 +70,13 @@ describe('the request', () => {
     expect(draft.settings).toEqual({});
     expect(settingText(draft, 'learning_rate')).toBe('0.001');
   });
+});
+
+it('asks for the toy as it is', () => {
+  const { settings, ...query } = toyQuery('my-toy', 3);
+  const others = { start_from: null, goal_m: null };
+  expect(query).toEqual({ map: 'toy', name: 'my-toy', seed: 3, recipe: 'toy', ...others });
+  expect(new Set(Object.values(settings))).toEqual(new Set([null]));
 });
 
 it('has recipes inside the ranges of the fields', () => {

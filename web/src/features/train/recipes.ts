@@ -1,5 +1,6 @@
 // Recipes, settings, and the request for a training from the form's fields. Pure.
 
+import type { Catalog } from '../../lab/catalog';
 import { freeName } from '../../lab/maps';
 import { RECIPES, TRAINING_SETTINGS } from '../../net/forms.gen';
 import type { RecipeName, TrainingQuery } from '../../net/protocol.gen';
@@ -49,6 +50,12 @@ export function suggestedName(map: string, taken: readonly string[]): string {
   return freeName(mine.slice(0, NAME_LENGTH - 4), taken);
 }
 
+/** Names that a policy has, or will have. */
+export const takenNames = (catalog: Pick<Catalog, 'policies' | 'trainings'>): string[] => [
+  ...(catalog.policies() ?? []).map(({ name }) => name),
+  ...(catalog.trainings() ?? []).map(({ query }) => query.name),
+];
+
 export const recipeOf = (name: RecipeName): (typeof RECIPES)[number] =>
   RECIPES.find((one) => one.name === name) ?? RECIPES[0];
 
@@ -81,6 +88,12 @@ export function queryOf(draft: Draft, map: string, name: string): TrainingQuery 
     goal_m: null,
   };
 }
+
+/** Its training takes seconds. */
+export const TOY_MAP = 'toy';
+
+export const toyQuery = (name: string, seed: number): TrainingQuery =>
+  queryOf({ ...BLANK, recipe: 'toy', seed: String(seed) }, TOY_MAP, name);
 
 /** The settings of a training that differ from its recipe, as words. */
 export function changeWords({ settings }: Pick<TrainingQuery, 'settings'>): string[] {

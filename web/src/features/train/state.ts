@@ -29,6 +29,9 @@ export const [isNew, setNew] = createSignal(false);
 
 export const [hasCurves, setCurves] = createSignal(false);
 
+/** Whether the shipped finished training plays before the first one of one's own. */
+export const [playsFinished, setPlaysFinished] = createSignal(false);
+
 /** Opens the form with the map of the session, and a name for its policy. */
 export function showMap(): void {
   change({ map: undefined, name: undefined });

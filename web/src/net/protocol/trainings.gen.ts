@@ -3,7 +3,7 @@
 /**
  * Recipe from which the settings start.
  */
-export type RecipeName = "quick" | "full" | "paper";
+export type RecipeName = "quick" | "full" | "paper" | "toy";
 
 /**
  * How image, tool and goal come together in the network.
@@ -75,7 +75,7 @@ goal_m: [number, number] | null, };
 export type TrainingStage = "waiting" | "images" | "learning" | "examination" | "paused" | "done" | "cancelled" | "failed";
 
 /**
- * Episodes with random starts and goals, without exploration.
+ * Episodes without exploration, with random starts and goals; on a map of at most 63 cells, with all of them.
  */
 export type Examination = { episodes: number, 
 /**
@@ -93,7 +93,11 @@ timed_out: number,
 /**
  * Wilson 95 % interval of `reached / episodes`.
  */
-reached_wilson95: [number, number], };
+reached_wilson95: [number, number], 
+/**
+ * Whether the episodes are all pairs of a start and a goal, each once: then there is nothing left to estimate.
+ */
+all_pairs: boolean, };
 
 /**
  * A hundred updates of a training.
@@ -153,7 +157,7 @@ elapsed_s: number,
  */
 left_s: number | null, 
 /**
- * The last examination, of 1000 episodes; before the end, the newest small one.
+ * The last examination, of 1000 episodes or all pairs; before the end, the newest small one.
  */
 examined: Examination | null, 
 /**
@@ -194,7 +198,7 @@ elapsed_s: number,
  */
 left_s: number | null, 
 /**
- * The last examination, of 1000 episodes; before the end, the newest small one.
+ * The last examination, of 1000 episodes or all pairs; before the end, the newest small one.
  */
 examined: Examination | null, 
 /**
