@@ -43,16 +43,18 @@ function Playing(props: { of: Finished; before: string }): JSX.Element {
         range={rangeOf(frames.flatMap(({ values }) => values))}
         layers={layers()}
       />
-      <p class="train-veil">
-        {props.before} <strong>A finished training</strong> on the map {query.map}, after{' '}
-        <span class="number">{counted(frame()?.update ?? 0, 'update')}</span>.
-      </p>
+      <Show when={props.before !== ''}>
+        <p class="train-veil">
+          {props.before} <strong>A finished training</strong> on the map {query.map}, after{' '}
+          <span class="number">{counted(frame()?.update ?? 0, 'update')}</span>.
+        </p>
+      </Show>
     </>
   );
 }
 
 export function FinishedPlan(props: {
-  /** What is said before its name. */
+  /** What is said before its name, on the plan; empty if its name stands elsewhere. */
   before: string;
 }): JSX.Element {
   const [finished] = createResource(async () => (await import('./finished.gen')).FINISHED);

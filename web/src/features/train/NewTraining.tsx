@@ -14,6 +14,7 @@ export function NewTraining(props: {
   /** Whether there has been no training yet. */
   isFirst: boolean;
   onClose: () => void;
+  onStarted: () => void;
 }): JSX.Element {
   return (
     <>
@@ -24,14 +25,18 @@ export function NewTraining(props: {
             <CloseButton label="Close the form" onClose={() => props.onClose()} />
           </Show>
         </header>
-        <ToyStart lab={props.lab} isFirst={props.isFirst} onStarted={() => props.onClose()} />
+        <ToyStart lab={props.lab} isFirst={props.isFirst} onStarted={() => props.onStarted()} />
         <Show when={props.isFirst}>
           <Intro />
         </Show>
       </section>
       <section ref={(part) => props.onForm(part)}>
         <h3>{props.isFirst ? 'Train a policy of your own' : 'On a map of your choice'}</h3>
-        <StartPanel lab={props.lab} isPrimary={!props.isFirst} onStarted={() => props.onClose()} />
+        <StartPanel
+          lab={props.lab}
+          isPrimary={!props.isFirst}
+          onStarted={() => props.onStarted()}
+        />
       </section>
     </>
   );

@@ -30,6 +30,7 @@ import { NewTraining } from './NewTraining';
 import { FirstPane, HELP_ID, PlanPane } from './PlanPane';
 import { PoliciesPanel } from './PoliciesPanel';
 import { policyOf } from './policyUse';
+import { TOY_MAP } from './recipes';
 import { mapOf } from './StartPanel';
 import {
   choose,
@@ -114,6 +115,8 @@ export default function TrainView(props: {
     setPlaysFinished(false);
     newButton?.focus();
   };
+  /** Its progress comes into view. */
+  const focusHead = (): void => document.querySelector<HTMLElement>('.training-head h2')?.focus();
   const details = (): JSX.Element => (
     <>
       <For each={watches()}>
@@ -215,6 +218,9 @@ export default function TrainView(props: {
       }
       over={
         <p class="about">
+          <Show when={watches().length === 0 && playsFinished()}>
+            <strong>A finished training</strong> on the map {TOY_MAP}, played again and again.{' '}
+          </Show>
           <Show when={watches().length > 0 || playsFinished()}>
             What the policy expects from each place: the sum of all later rewards on the route to
             the goal.
@@ -226,9 +232,7 @@ export default function TrainView(props: {
           <p id={HELP_ID} class="train-help">
             <Show
               when={watches().length > 0}
-              fallback={
-                playsFinished() ? 'It plays again and again.' : 'The map of the new training.'
-              }
+              fallback={playsFinished() ? '' : 'The map of the new training.'}
             >
               {IS_TOUCH ? 'Tap a cell' : 'Click a cell, or use the arrow keys on the plan,'} to see
               how its value changed.
@@ -253,6 +257,10 @@ export default function TrainView(props: {
                 lab={lab}
                 isFirst={isFirstVisit()}
                 onClose={closeForm}
+                onStarted={() => {
+                  closeForm();
+                  focusHead();
+                }}
               />
             </Show>
             <PoliciesPanel lab={lab} onUse={use} />
