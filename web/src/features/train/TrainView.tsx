@@ -115,8 +115,6 @@ export default function TrainView(props: {
     setPlaysFinished(false);
     newButton?.focus();
   };
-  /** Its progress comes into view. */
-  const focusHead = (): void => document.querySelector<HTMLElement>('.training-head h2')?.focus();
   const details = (): JSX.Element => (
     <>
       <For each={watches()}>
@@ -259,7 +257,7 @@ export default function TrainView(props: {
                 onClose={closeForm}
                 onStarted={() => {
                   closeForm();
-                  focusHead();
+                  document.querySelector<HTMLElement>('.training-head h2')?.focus();
                 }}
               />
             </Show>
