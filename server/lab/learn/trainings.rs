@@ -129,7 +129,7 @@ impl Trainings {
     fn training(&self, id: String, record: Record, map: Map, history: (Option<Cells>, Vec<Frame>)) -> Arc<Training> {
         let folders = [self.folder.join(&id), self.sweeps.clone()];
         let estimate_s = record.updates_total as f64 * self.queue.paces.each_s(&work_of(record.query.recipe));
-        let ticket = Ticket { owner: record.owner.clone(), lane: Lane::Long, estimate_s };
+        let ticket = Ticket { owner: record.owner.clone(), lane: Lane::of(estimate_s), estimate_s };
         Training::new(id, record, map, ticket, folders, self.policies.clone(), history, self.changes.clone())
     }
 

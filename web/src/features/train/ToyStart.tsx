@@ -22,7 +22,7 @@ export function ToyStart(props: {
   const seed = (): number =>
     1 + (props.lab.catalog.trainings() ?? []).filter(({ query }) => query.recipe === 'toy').length;
   const start = async (): Promise<void> => {
-    const id = await startTraining(toyQuery(name(), seed()));
+    const id = await startTraining(props.lab.session, toyQuery(name(), seed()));
     compare(undefined);
     choose(id);
     props.onStarted();
