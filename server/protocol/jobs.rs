@@ -138,7 +138,7 @@ impl JobSummary {
             message,
             before: 0,
             starts_in_s: None,
-            share: if all > 0.0 { (done / all * 1e3).floor() / 1e3 } else { 0.0 },
+            share: if all > 0.0 { (done / all * 1e3).floor().min(1e3) / 1e3 } else { 0.0 },
             estimate_s: ticket.estimate_s.round(),
             left_s: is_active.then(|| left_s.round()),
             can_pause: matches!(stage, JobStage::Waiting | JobStage::Running) && kind != JobKind::Comparison,
@@ -176,7 +176,7 @@ impl From<&Training> for JobSummary {
         };
         let done = status.points.last().map_or(0, |point| point.update) as f64;
         let all = training.updates_total as f64;
-        let left_s = status.left_s.unwrap_or(training.ticket.estimate_s * (1.0 - done / all));
+        let left_s = status.left_s.unwrap_or(training.ticket.estimate_s * (1.0 - done / all).max(0.0));
         let what = (training.id.as_str(), JobKind::Training, training.query.name.clone());
         let summary = Self::new(what, &training.ticket, stage, [done, all], left_s);
         let can_pause = summary.can_pause && status.stage != learn::TrainingStage::Examination;
