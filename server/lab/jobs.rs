@@ -60,10 +60,16 @@ pub trait Job: Send + Sync {
     fn interrupt(&self);
 }
 
+/// The jobs of a lane, and the thread that runs them.
+struct Runner {
+    shared: Arc<Shared>,
+    thread: Mutex<Option<JoinHandle<()>>>,
+}
+
 /// The queue of a server. Dropping it interrupts the running jobs.
 pub struct Queue {
     /// As [`Lane::ALL`].
-    lanes: [(Arc<Shared>, Mutex<Option<JoinHandle<()>>>); 2],
+    lanes: [Runner; 2],
     pub paces: Arc<Paces>,
     /// Those of all jobs.
     pub changes: Changes,
@@ -137,14 +143,14 @@ impl Queue {
             let (served, gpu, paces) = (shared.clone(), gpu.clone(), paces.clone());
             let name = format!("{} jobs", lane.as_str());
             let thread = gentle_thread(lane, name, move || served.serve(lane, &gpu, &paces))?;
-            Ok::<_, std::io::Error>((shared, Mutex::new(Some(thread))))
+            Ok::<_, std::io::Error>(Runner { shared, thread: Mutex::new(Some(thread)) })
         };
         let [short, long] = Lane::ALL.map(begin);
         Ok(Self { lanes: [short?, long?], paces, changes: Changes::default() })
     }
 
     fn of(&self, lane: Lane) -> &Shared {
-        &self.lanes[lane as usize].0
+        &self.lanes[lane as usize].shared
     }
 
     /// Adds a job to the end of its lane.
@@ -177,7 +183,7 @@ impl Queue {
 
     /// Closes the queue and interrupts the running jobs, without waiting for them. No waiting job begins any more.
     pub fn stop(&self) {
-        for (shared, _) in &self.lanes {
+        for Runner { shared, .. } in &self.lanes {
             let mut line = shared.lock();
             if std::mem::replace(&mut line.closing, true) {
                 continue;
@@ -192,7 +198,7 @@ impl Queue {
     /// Closes the queue and waits until it has stopped.
     pub fn close(&self) {
         self.stop();
-        for (_, thread) in &self.lanes {
+        for Runner { thread, .. } in &self.lanes {
             let thread = thread.lock().unwrap_or_else(PoisonError::into_inner).take();
             if let Some(thread) = thread {
                 // Panics of jobs are caught.

@@ -110,18 +110,15 @@ pub async fn keep(server: Weak<Server>) {
         let Ok(read) = reading.await else { return };
         changes = read;
         tokio::time::sleep(EVERY).await;
-        loop {
-            // Copies: the change is still to be seen then.
-            let each = changes.clone().map(|mut list| async move { list.changed().await }.boxed());
-            match tokio::time::timeout(DATE_EVERY, select_all(each)).await {
-                Ok((Ok(()), ..)) => break,
-                Ok((Err(_), ..)) => return,
-                Err(_) => {
-                    changes[List::Jobs as usize].mark_changed();
-                    if std::mem::replace(&mut date, lists::today()) != date {
-                        changes[List::Challenges as usize].mark_changed();
-                    }
-                    break;
+        // Copies: the change is still to be seen then.
+        let each = changes.clone().map(|mut list| async move { list.changed().await }.boxed());
+        match tokio::time::timeout(DATE_EVERY, select_all(each)).await {
+            Ok((Ok(()), ..)) => {}
+            Ok((Err(_), ..)) => return,
+            Err(_) => {
+                changes[List::Jobs as usize].mark_changed();
+                if std::mem::replace(&mut date, lists::today()) != date {
+                    changes[List::Challenges as usize].mark_changed();
                 }
             }
         }

@@ -130,7 +130,7 @@ impl Trainings {
         let folders = [self.folder.join(&id), self.sweeps.clone()];
         let estimate_s = record.updates_total as f64 * self.queue.paces.each_s(&work_of(record.query.recipe));
         let ticket = Ticket { owner: record.owner.clone(), lane: Lane::of(estimate_s), estimate_s };
-        Training::new(id, record, map, ticket, folders, self.policies.clone(), history, self.changes.clone())
+        Training::new(id, (record, map), ticket, folders, self.policies.clone(), history, self.changes.clone())
     }
 
     /// Adds a training. `owner` is the session that starts it.

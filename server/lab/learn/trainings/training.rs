@@ -97,8 +97,7 @@ pub struct Training {
 impl Training {
     pub(super) fn new(
         id: String,
-        record: Record,
-        map: Map,
+        (record, map): (Record, Map),
         ticket: Ticket,
         folders: [PathBuf; 2],
         policies: Arc<Library>,
