@@ -50,7 +50,7 @@ test('opens one session per address', async ({ lab, openLab, newSession }) => {
   const testCase = page.getByRole('link', { name: 'Keep as test case' });
   await expect(testCase).toHaveAttribute('href', new RegExp(`/${second.name}/`));
   await other.button('Share').click();
-  await expect(page.getByLabel('Link: Watch this')).toHaveValue(second.url);
+  await expect(page.getByLabel('Link: Watch this')).toHaveValue(`${second.url}?watch`);
 });
 
 test('the browser’s tab does not name the session main', async ({ openLab, server }) => {

@@ -112,7 +112,7 @@ export function FirstVisit(props: {
             Ferry
           </h1>
           <button type="button" class="ghost" onClick={props.onEnd}>
-            Open the lab
+            {isWatching() ? 'Watch' : 'Open the lab'}
             <Icon of={ArrowRight} />
           </button>
         </header>

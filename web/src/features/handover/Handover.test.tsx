@@ -54,7 +54,7 @@ it('tells who asked how the request stands and ends', async () => {
   server.hello({ role: 'viewer', asks: true, answer_within_s: 30 });
   await expect.element(page.getByText(/It is yours in 30 s/)).toBeVisible();
   server.hello({ role: 'viewer' });
-  await expect.poll(said).toBe('Your request for control is over.');
+  await expect.poll(said).toBe('The operator keeps control. You can ask again in a minute.');
   server.hello({ role: 'viewer', asks: true, answer_within_s: 30 });
   await page.getByRole('button', { name: 'Withdraw' }).click();
   await expect

@@ -2,7 +2,7 @@
 
 import { Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import type { Notices, Session } from '../../lab/slices';
-import { createCountdown } from './countdown';
+import { createCountdown, own } from './countdown';
 
 /** Control passed on because its time was over, if this was left at the last count. */
 const OVER_S = 1;
@@ -18,8 +18,9 @@ export function Handover(props: { lab: Session & Notices }): JSX.Element {
       if (now?.role !== 'viewer') return;
       if (before?.asked && last_s <= OVER_S)
         lab.notify('session', 'Another browser has control now: nothing was done here for 30 s.');
-      else if (before?.asks && !now.asks && now.operator_present)
-        lab.notify('session', 'Your request for control is over.');
+      else if (before?.asks && !now.asks && now.operator_present && !own.isWithdrawn)
+        lab.notify('session', 'The operator keeps control. You can ask again in a minute.');
+      if (!now.asks) own.isWithdrawn = false;
     }),
   );
   return (
@@ -27,7 +28,7 @@ export function Handover(props: { lab: Session & Notices }): JSX.Element {
       <Show when={isAsked()}>
         <p class="notice">
           <span>
-            Another browser asks for control and gets it in{' '}
+            Another browser asks for control. If you do nothing, it gets it in{' '}
             <span class="number" aria-live="off">
               {left_s()} s
             </span>

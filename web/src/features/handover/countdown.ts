@@ -3,6 +3,9 @@
 import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
 import type { Session } from '../../lab/slices';
 
+/** Whether this page has ended its own request, which the next `hello` shows. */
+export const own = { isWithdrawn: false };
+
 const EVERY_MS = 250;
 
 /** Whole seconds until control passes on; undefined without a request. */

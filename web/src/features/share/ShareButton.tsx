@@ -52,8 +52,8 @@ export function ShareButton(props: {
       </button>
       <Show when={popover.open()}>
         <div id="share" class="popover of-top share-box" role="group" aria-label="Share">
-          <LinkRow title="Watch this" address={address(`/s/${props.session}`)}>
-            This session: all see what happens here, and one of them operates it.
+          <LinkRow title="Watch this" address={address(`/s/${props.session}?watch`)}>
+            This session: all see what happens here. One steers, and others may ask for control.
           </LinkRow>
           <For each={props.open}>
             {(one) => (

@@ -66,7 +66,7 @@ it('has the experiment in its link, and copies it', async () => {
   expect(link()).toMatch(/\/copy\/#v=1&/);
   await expect
     .element(page.getByLabelText('Link: Watch this'))
-    .toHaveValue(`${window.location.origin}/s/anna`);
+    .toHaveValue(`${window.location.origin}/s/anna?watch`);
   await expect.element(page.getByLabelText('Link: This lesson')).toHaveValue('http://ferry/x');
   await button('Copy: A copy for each').click();
   await expect.element(page.getByText(/^(Copied\.|Selected: )/)).toBeVisible();
