@@ -8,7 +8,7 @@ use tokio_tungstenite::connect_async;
 
 use crate::support::{Browser, Laboratory, gpu};
 
-const LISTS: [(&str, &str); 7] = [
+const LISTS: [(&str, &str); 9] = [
     ("maps", "maps"),
     ("policies", "policies"),
     ("trainings", "trainings"),
@@ -16,6 +16,8 @@ const LISTS: [(&str, &str); 7] = [
     ("recoveries", "recoveries"),
     ("programs", "controllers"),
     ("challenges", "challenges"),
+    ("jobs", "jobs"),
+    ("paces", "jobs"),
 ];
 const DRAWING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-300 210 580 330\">\
                        <rect x=\"-20\" y=\"300\" width=\"40\" height=\"30\"/></svg>";
@@ -47,7 +49,9 @@ async fn a_browser_gets_each_list_once_with_the_items_of_its_resource() {
         let came = lists(&mut browser).await;
         let mut all: Vec<_> = names(&came);
         all.sort_unstable();
-        assert_eq!(all, ["challenges", "evaluations", "maps", "policies", "programs", "recoveries", "trainings"]);
+        let mut known = LISTS.map(|(list, _)| list);
+        known.sort_unstable();
+        assert_eq!(all, known);
         let by_name: BTreeMap<_, _> = names(&came).into_iter().zip(&came).collect();
         for (list, resource) in LISTS {
             let (_, answer) = lab.ask("GET", &format!("/api/{resource}"), "").await;

@@ -6,6 +6,7 @@ mod cable;
 mod handing_over;
 
 use std::cell::Cell;
+use std::collections::VecDeque;
 use std::ffi::OsStr;
 use std::ops::{Deref, DerefMut};
 use std::path::Path;
@@ -282,7 +283,8 @@ async fn the_robot_stops_when_the_cable_is_damaged() {
     let (_server, mut page) = driver(CABLE, &["--enable-motion"], &data.path().join("twin")).await;
     let tick = |state: &Value| state["tick"].as_u64().unwrap();
     let mut tries = 0;
-    for fault in Fault::ALL {
+    let mut faults = VecDeque::from(Fault::ALL);
+    while let Some(fault) = faults.pop_front() {
         let (before, at) = loop {
             tries += 1;
             assert!(tries <= 20, "{fault:?}: the robot stops again and again");
@@ -337,8 +339,11 @@ async fn the_robot_stops_when_the_cable_is_damaged() {
             eprintln!("{fault:?}: {speed_rad_s:.2} rad/s, at rest after {moved_s:.3} s, allowed {allowed_s:.3} s");
             // What is on its way, and the age of a state.
             assert!(moved_s <= allowed_s + 5.0 * TICK_S, "{fault:?}: {moved_s:.3} s, allowed {allowed_s:.3} s");
-            let stopped = page.state("it says why", |state| state["twin"]["stopped"].is_object()).await;
-            assert_eq!(stopped["twin"]["is_driven"], false, "{fault:?}");
+            let stopped = page.state("it says so", |state| state["twin"]["is_driven"] == false).await;
+            if stopped["twin"]["stopped"].is_null() {
+                eprintln!("{fault:?}: a busy machine did not hold the button in time");
+                faults.push_front(fault);
+            }
         }
         // With the cable whole again nothing moves by itself.
         cable.damage(Fault::None);

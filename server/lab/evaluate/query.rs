@@ -313,7 +313,7 @@ mod tests {
             (
                 EvaluationQuery { maps: all, vary: vec![variation("friction=0:1:20")], ..query() },
                 "maps",
-                &["640 cells", "240"],
+                &["720 cells", "240"],
             ),
             (EvaluationQuery { vary: vec![variation("friction=0:2:3")], ..query() }, "vary", &["friction is 2"]),
             (

@@ -1,6 +1,11 @@
 //! What is asked of a training.
 
-use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
@@ -17,6 +22,23 @@ use ferry_core::schema::Numbers2;
 /// Largest number of cells of a map; an image of each is kept in memory.
 const MOST_CELLS: usize = 6000;
 
+/// Reads the fields of an object only: serde reads them from an array, too, without their names.
+fn from_object<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<T, D::Error> {
+    struct Object<T>(PhantomData<T>);
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for Object<T> {
+        type Value = T;
+
+        fn expecting(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+            to.write_str("an object")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, fields: A) -> Result<T, A::Error> {
+            T::deserialize(MapAccessDeserializer::new(fields))
+        }
+    }
+    deserializer.deserialize_map(Object(PhantomData))
+}
+
 /// Body of `POST /api/trainings`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
@@ -31,7 +53,7 @@ pub struct TrainingQuery {
     pub seed: u64,
     #[serde(default)]
     pub recipe: RecipeName,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "from_object")]
     pub settings: Settings,
     /// Policy whose weights it starts from; `null`: random weights.
     #[serde(default)]
@@ -189,6 +211,16 @@ mod tests {
         ] {
             assert_eq!(TrainingQuery { settings, ..query() }.recipe(None).unwrap_err().field(), field);
         }
+    }
+
+    #[test]
+    fn settings_are_an_object() {
+        let read = |settings: &str| {
+            let text = format!(r#"{{"map": "posts", "name": "a", "seed": 1, "settings": {settings}}}"#);
+            serde_json::from_str::<TrainingQuery>(&text)
+        };
+        assert_eq!(read(r#"{"updates": 7}"#).unwrap().settings.updates, Some(7));
+        assert!(read("[7]").unwrap_err().to_string().contains("an object"));
     }
 
     #[test]
