@@ -153,9 +153,7 @@ test('plays a finished training while one’s own has no values yet', async ({ l
   await startTraining(page.request, server.url, 'first', MORE_UPDATES);
   await startTraining(page.request, server.url, 'second');
   await lab.view('Train').click();
-  await expect(
-    page.getByText(/^Waits until first is finished. Meanwhile: A finished/),
-  ).toBeVisible();
+  await expect(page.getByText(/^Waits for 1 job before it.* Meanwhile: A finished/)).toBeVisible();
   await expect(plan(lab)).toHaveAccessibleName(/of a finished training$/);
 });
 
@@ -213,7 +211,7 @@ test('pauses, resumes, cancels and removes a training', LONG, async ({ lab, serv
     await startTraining(page.request, server.url, name, MORE_UPDATES);
   }
   await lab.view('Train').click();
-  await expect(entry(lab, 'two')).toContainText('Waits until one is finished.');
+  await expect(entry(lab, 'two')).toContainText('Waits for 1 job before it');
   await expect(entry(lab, 'one')).toContainText('learns', { timeout: TRAIN_MS });
   await entry(lab, 'one').getByRole('button', { name: /^one/ }).click();
   await lab.button('Pause one').click();

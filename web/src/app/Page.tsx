@@ -10,7 +10,6 @@ import { followChallengeLink } from '../lab/pageChallenge';
 import { createPageExperiment } from '../lab/pageExperiment';
 import { createCapture } from '../features/export/capture';
 import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
-import { CaseLink } from '../features/events/CaseLink';
 import { openCase } from '../features/events/cases';
 import { Dock } from './Dock';
 import { FirstVisit } from './FirstVisit';
@@ -28,13 +27,17 @@ import { createLayers } from '../plan/layer';
 import { createChoice } from '../ui/storage';
 import { LiveRegion } from './LiveRegion';
 import { createMapOpener } from '../features/maps/opener';
-import { RecordingLinks } from '../features/recordings/RecordingLinks';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
 import { ShareButton } from '../features/share/ShareButton';
 import { onFileDrop } from '../ui/fileDrop';
-import { lazyView } from '../ui/lazyPart';
+import { lazyPart, lazyView } from '../ui/lazyPart';
 import type { ViewPicture } from '../plan/viewPicture';
 
+const ShareFiles = lazyPart(
+  () => import('./ShareFiles'),
+  'list of files',
+  (missing) => missing,
+);
 const DrawView = lazyView(() => import('../features/draw/DrawView'));
 const TrainView = lazyView(() => import('../features/train/TrainView'));
 const EvaluateView = lazyView(() => import('../features/evaluate/EvaluateView'));
@@ -96,12 +99,7 @@ export function Page(): JSX.Element {
             links={links}
             map={lab.scene()?.map}
             open={openLinks(lab)}
-            files={
-              <>
-                <CaseLink lab={lab}>Test case</CaseLink>
-                <RecordingLinks session={lab.session} />
-              </>
-            }
+            files={<ShareFiles lab={lab} />}
           >
             <CaptureTools capture={capture} />
           </ShareButton>

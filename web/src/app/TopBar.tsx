@@ -3,7 +3,6 @@
 import { Show, type JSX } from 'solid-js';
 import { Box, ChevronDown, Layers, Map as MapIcon, PanelRightClose, PanelRightOpen } from 'lucide';
 import { challengeTitle } from '../features/challenge/words';
-import { JobsButton } from '../features/jobs/JobsButton';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import { VIEWS } from '../lab/address';
 import type { Lab } from '../lab/slices';
@@ -12,11 +11,18 @@ import { counted } from '../ui/format';
 import { Icon } from '../ui/Icon';
 import { shownName } from '../ui/name';
 import { Segmented } from '../ui/Segmented';
+import { lazyPart } from '../ui/lazyPart';
 import { isPhone } from '../ui/windowSize';
 import { MoreMenu } from './MoreMenu';
 import { StatusPill } from './StatusPill';
 import { VIEW_MODES, type ViewMode } from './viewMode';
 import './TopBar.css';
+
+const JobsButton = lazyPart(
+  () => import('../features/jobs/JobsButton'),
+  'list of jobs',
+  () => undefined,
+);
 
 /** The map, and what the trial begins with. A press opens *Set up*. */
 function Experiment(props: { lab: Lab }): JSX.Element {
@@ -124,7 +130,9 @@ export function TopBar(props: {
           </button>
           {props.share}
         </Show>
-        <JobsButton lab={lab} />
+        <Show when={(lab.catalog.jobs()?.length ?? 0) > 0}>
+          <JobsButton lab={lab} />
+        </Show>
         <MoreMenu lab={lab} />
         <Show when={isLaboratory()}>
           <button

@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { page } from 'vitest/browser';
 import { jobOf } from '../../lab/testingJobs';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
-import { JobsButton } from './JobsButton';
+import JobsButton from './JobsButton';
 
 const RECOVERY = jobOf({ id: 'recovery-1', kind: 'recovery', name: 'posts', lane: 'short' });
 const button = (name: string | RegExp) => page.getByRole('button', { name });

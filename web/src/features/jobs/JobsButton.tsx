@@ -15,7 +15,7 @@ import './jobs.css';
 
 const NONE: readonly JobSummary[] = [];
 
-export function JobsButton(props: { lab: Session & Addressed & Panels }): JSX.Element {
+export default function JobsButton(props: { lab: Session & Addressed & Panels }): JSX.Element {
   const popover = createPopover('jobs');
   const jobs = createMemo(() => props.lab.catalog.jobs() ?? NONE);
   const active = (): number => jobs().filter(isActive).length;

@@ -18,7 +18,7 @@ export function OpenMap(props: {
   onTrain: () => void;
 }): JSX.Element {
   const { lab, opener } = props;
-  const trials = opener.trials.all;
+  const trials = () => opener.trials()?.all() ?? [];
   const isOff = (): boolean => !lab.canOperate() || opener.isBusy();
   return (
     <>
@@ -61,7 +61,7 @@ export function OpenMap(props: {
                 </button>
               </Show>
               <SmallButton
-                classList={{ small: true, primary: opener.trials.isUnsolved() }}
+                classList={{ small: true, primary: opener.trials()?.isUnsolved() === true }}
                 title="Opens the view Train: a policy learns this map"
                 onClick={() => props.onTrain()}
               >

@@ -1,11 +1,11 @@
 // Sends the user's drawings to the server, and keeps what it says about the last one.
 
-import { createSignal } from 'solid-js';
+import { createSignal, getOwner, runWithOwner } from 'solid-js';
 import { loadTrial } from '../../lab/loadTrial';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { MapReport } from '../../net/protocol.gen';
 import { addMap, isOutOfReach } from '../../lab/maps';
-import { createPolicyTrials } from './policyTrials';
+import type { PolicyTrials } from './policyTrials';
 import { reasonText } from '../../net/problem';
 
 interface Opening {
@@ -23,7 +23,16 @@ export function createMapOpener(lab: Session & Trial & Notices) {
   const [isBusy, setBusy] = createSignal(false);
   const [added, setAdded] = createSignal<Added>();
   /** Of the shipped policies on the new map. */
-  const trials = createPolicyTrials(lab.catalog, lab.session);
+  const [trials, setTrials] = createSignal<PolicyTrials>();
+  const owner = getOwner();
+  /** Their code is loaded for the first map. */
+  const tryPolicies = async (map: string): Promise<void> => {
+    const { createPolicyTrials } = await import('./policyTrials');
+    const make = (): PolicyTrials => createPolicyTrials(lab.catalog, lab.session);
+    const made = trials() ?? runWithOwner(owner, make);
+    setTrials(() => made);
+    made?.start(map);
+  };
   const say = (text: string): void => {
     lab.notify('playback', text);
   };
@@ -55,7 +64,7 @@ export function createMapOpener(lab: Session & Trial & Notices) {
         const report = await addMap(file, fit);
         setAdded({ file, report });
         const answer = await loadTrial(lab, 'playback', { map: report.name, ...places });
-        if (answer?.kind === 'done') trials.start(report.name);
+        if (answer?.kind === 'done') await tryPolicies(report.name);
         return true;
       } catch (reason) {
         say(reasonText(reason));
@@ -65,7 +74,7 @@ export function createMapOpener(lab: Session & Trial & Notices) {
       }
     },
     dismiss: (): void => {
-      trials.stop();
+      trials()?.stop();
       setAdded(undefined);
     },
   };
