@@ -135,11 +135,14 @@ it('says why no policy could be tried', async () => {
   await expect.element(train).not.toHaveClass('primary');
 });
 
-it('cancels the trials when the report is dismissed', async () => {
+it('forgets the trials when the report is dismissed, and tries no other policy', async () => {
   const { server, asked } = await open((name) => evaluation(name, 'waiting', 0, 0));
   await expect.poll(() => asked).toEqual(['explorer']);
   server.lists({ evaluations: [evaluation('explorer', 'running', 1, 1)] });
   await expect.element(line(/1 of 5 trials/)).toBeVisible();
   await page.getByRole('button', { name: 'Dismiss the report' }).click();
-  await expect.poll(() => server.requests).toContain('DELETE /api/evaluations/explorer');
+  await expect.element(line(/of 5 trials/)).not.toBeInTheDocument();
+  server.lists({ evaluations: [evaluation('explorer', 'done', 5, 0)] });
+  await expect.element(line(/of 5/)).not.toBeInTheDocument();
+  expect(asked).toEqual(['explorer']);
 });

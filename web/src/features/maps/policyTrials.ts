@@ -5,7 +5,7 @@ import type { Catalog } from '../../lab/catalog';
 import { startPath } from '../../lab/jobs';
 import type { EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
 import { reasonText } from '../../net/problem';
-import { post, remove } from '../../net/requests';
+import { post } from '../../net/requests';
 
 /** Of each policy, with random starts and goals. */
 export const TRIALS = 5;
@@ -76,20 +76,15 @@ export function createPolicyTrials(catalog: Catalog, session: string) {
       const path = startPath('/api/evaluations', session);
       const { id } = await post<EvaluationSummary>(path, JSON.stringify(query));
       if (started() === asked) setStarted([...before, { policy, id }]);
-      else await remove(`/api/evaluations/${id}`);
     } catch (reason) {
       const refusal = reasonText(reason);
       if (started() === asked) setStarted([...before, { policy, id: undefined, refusal }]);
     }
   };
-  /** Cancels what still runs, and forgets the rest. */
+  /** Forgets them. What still runs is over in some seconds. */
   const stop = (): void => {
-    const now = started().at(-1);
     map = undefined;
     setStarted([]);
-    // It may have ended meanwhile.
-    if (now?.id !== undefined && outcomeOf(now, catalog.evaluations() ?? []).kind === 'trying')
-      void remove(`/api/evaluations/${now.id}`).catch(() => undefined);
   };
   // The next one is tried only if the one before does not solve the map.
   createEffect(() => {
