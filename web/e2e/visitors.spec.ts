@@ -15,8 +15,9 @@ for (const [count, suite] of [
       const context = await browser.newContext();
       contexts.push(context);
       const page = await context.newPage();
-      await page.goto(server.url);
+      // Before the page opens: it reads all messages.
       const visitor = new Lab(page);
+      await page.goto(server.url);
       const begin = visitor.button('Pull it away');
       await until('the first messages', () => visitor.isComplete);
       await begin.click();
