@@ -74,7 +74,7 @@ async fn a_recovery_map_and_a_comparison_come_and_end_during_a_training() {
     let waits = json!({"map": "u-turn", "name": "waits", "seed": 7, "settings": {"updates": 20_000}});
     let waiting = lab.start("/api/trainings", waits).await;
     let runs = |job: &Value| job["stage"] == "running" && job["has_results"] == true;
-    let listed = lab.job_when(&training, "a first value map", runs).await;
+    let listed = browser.during(lab.job_when(&training, "a first value map", runs)).await;
     assert_eq!(
         (&listed["kind"], &listed["name"], &listed["owner"]),
         (&json!("training"), &json!("long"), &json!("main"))
@@ -87,7 +87,7 @@ async fn a_recovery_map_and_a_comparison_come_and_end_during_a_training() {
     let map = lab.start("/api/recoveries", recovery()).await;
     browser.send(json!({"type": "fork", "tick": 250, "controllers": ["attractor"]})).await;
     browser.until("a comparison", |m| m["type"] == "comparison" && m["branches"] != json!([])).await;
-    let job = lab.job_when(&map, "a first trial", |job| job["has_results"] == true).await;
+    let job = browser.during(lab.job_when(&map, "a first trial", |job| job["has_results"] == true)).await;
     assert_eq!((&job["lane"], &job["owner"]), (&json!("short"), &json!("main")), "{job}");
     // Jobs have a low priority, and other tests run beside this one.
     let end = browser.whenever("the end of the comparison", |m| m["type"] == "comparison" && m["running"] == false);
