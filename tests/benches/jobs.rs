@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use futures_util::{SinkExt, StreamExt};
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
-use tokio_tungstenite::tungstenite::Message;
+use tokio_tungstenite::tungstenite::{ClientRequestBuilder, Message};
 use tokio_tungstenite::{MaybeTlsStream, WebSocketStream, connect_async};
 
 type Socket = WebSocketStream<MaybeTlsStream<TcpStream>>;
@@ -28,6 +28,8 @@ const MOST_DEADLINE_RATIO: f64 = 1.1;
 struct Ferry {
     child: Child,
     address: String,
+    /// Of one visitor, whose control of a session waits for it between two connections.
+    cookie: String,
     _data: tempfile::TempDir,
 }
 
@@ -44,7 +46,9 @@ impl Ferry {
         let mut line = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
         let address = line.trim().strip_prefix("listening on http://").unwrap().to_owned();
-        Self { child, address, _data: data }
+        let page = ureq::get(format!("http://{address}/s/main")).call().unwrap();
+        let cookie = page.headers()["set-cookie"].to_str().unwrap().split(';').next().unwrap().to_owned();
+        Self { child, address, cookie, _data: data }
     }
 
     fn get(&self, path: &str) -> Value {
@@ -73,7 +77,8 @@ impl Ferry {
 
     async fn socket(&self, session: &str) -> Socket {
         ureq::get(format!("http://{}/s/{session}", self.address)).call().unwrap();
-        connect_async(format!("ws://{}/api/sessions/{session}/live", self.address)).await.unwrap().0
+        let address = format!("ws://{}/api/sessions/{session}/live", self.address).parse().unwrap();
+        connect_async(ClientRequestBuilder::new(address).with_header("cookie", &self.cookie)).await.unwrap().0
     }
 
     fn missed(&self) -> f64 {
@@ -94,8 +99,10 @@ async fn tell(socket: &mut Socket, message: Value) {
 
 async fn message(socket: &mut Socket, fits: impl Fn(&Value) -> bool) -> Value {
     loop {
-        let Message::Text(text) = socket.next().await.unwrap().unwrap() else { continue };
+        let next = tokio::time::timeout(Duration::from_secs(60), socket.next()).await.expect("no message");
+        let Message::Text(text) = next.unwrap().unwrap() else { continue };
         let message: Value = serde_json::from_str(&text).unwrap();
+        assert_ne!(message["type"], "error", "{message}");
         if fits(&message) {
             return message;
         }
@@ -161,9 +168,11 @@ async fn round(ferry: &Ferry, live: &mut Socket) -> Round {
             let begins = |m: &Value| m["type"] == "comparison" && m["running"] == true && m["branches"] == json!([]);
             message(main, begins).await;
             let has_samples = |m: &Value| m["type"] == "comparison" && m["branches"][0]["samples"][0].is_array();
-            message(main, has_samples).await;
+            let samples = message(main, has_samples).await;
             let first = begun.elapsed().as_secs_f64();
-            message(main, |m| m["type"] == "comparison" && m["running"] == false).await;
+            if samples["running"] == true {
+                message(main, |m| m["type"] == "comparison" && m["running"] == false).await;
+            }
             (first, begun.elapsed().as_secs_f64())
         };
         let ((first_trial, recovery), (first_branch, comparison)) = tokio::join!(recovery, comparison);
